@@ -1,0 +1,31 @@
+# One function for every folder of the house: a static library with the project's flags, and a target that
+# compiles each of its headers alone, so that a header never leans on what its includer happened to include.
+
+add_library(harrier_flags INTERFACE)
+target_include_directories(harrier_flags INTERFACE ${CMAKE_SOURCE_DIR})
+# -ffp-contract=off: LOD decisions must be bit-identical on every machine (docs/conventions.md).
+target_compile_options(harrier_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion
+                       -Wdouble-promotion -Werror -ffp-contract=off)
+target_compile_definitions(harrier_flags INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
+
+# harrier_module(NAME SOURCES... HEADERS... LINK...)
+function(harrier_module name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK" ${ARGN})
+    add_library(harrier_${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(harrier_${name} PUBLIC harrier_flags ${ARG_LINK})
+
+    set(probes)
+    foreach(header ${ARG_HEADERS})
+        cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE from_root)
+        string(MAKE_C_IDENTIFIER ${from_root} id)
+        set(probe ${CMAKE_BINARY_DIR}/headers/${id}.cpp)
+        if(NOT EXISTS ${probe})
+            file(WRITE ${probe} "#include \"${from_root}\"  // compiles alone\n")
+        endif()
+        list(APPEND probes ${probe})
+    endforeach()
+    if(HARRIER_TESTS AND probes)
+        add_library(harrier_${name}_headers OBJECT ${probes})
+        target_link_libraries(harrier_${name}_headers PRIVATE harrier_${name})
+    endif()
+endfunction()

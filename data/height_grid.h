@@ -1,0 +1,69 @@
+// HeightGrid: the terrain's source data, one regular raster of heights with its place in the world.
+//
+// The truth every level of detail is measured against. Row-major from the north-west corner; row 0 is the
+// northernmost whatever the file's order was.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "data/ground_frame.h"
+#include "lod/base/result.h"
+
+namespace data {
+
+/// Plain data. A void sample carries a finite, harmless height (interpolated from valid neighbours, inside the
+/// valid range), so arithmetic on heights never meets NaN; `is_void` says that it is not a measurement.
+struct HeightGrid {
+    int width = 0, height = 0;      ///< samples; both >= 1
+    std::vector<float> height_m;    ///< [height * width]
+    std::vector<uint8_t> is_void;   ///< [height * width], 1: no measurement; empty when there is none at all
+    GroundFrame frame;
+    float min_m = 0.0f, max_m = 0.0f;  ///< over valid samples
+
+    size_t index(int col, int row) const { return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(col); }
+    float at(int col, int row) const { return height_m[index(col, row)]; }
+    bool void_at(int col, int row) const { return !is_void.empty() && is_void[index(col, row)] != 0; }
+    bool has_voids() const { return !is_void.empty(); }
+};
+
+/// Height of the source surface at a grid position, on the triangles of the full-resolution bintree mesh: each
+/// cell is cut along the diagonal that joins its even corners (col + row even).
+/// @returns metres; `valid` is false outside the raster and where a corner of the triangle is void
+struct GroundHeight {
+    double height_m = 0.0;
+    bool valid = false;
+};
+GroundHeight ground_height(const HeightGrid& grid, double col, double row);
+
+/// What becomes of voids.
+enum class VoidPolicy : uint8_t {
+    kHole,  ///< stay void: the mesh has a hole there
+    kFill   ///< the interpolated height counts as measured
+};
+
+/// Options of read_height_grid.
+struct HeightGridOptions {
+    VoidPolicy voids = VoidPolicy::kFill;
+    bool has_undeclared_nodata = true;  ///< treat the usual codes as void even where the file declares none
+};
+
+/// Reads one or several rasters of heights as one surface.
+///
+/// Anything GDAL opens; geographic or projected; pixel-is-area or -point; scale and offset; feet and other
+/// units by the band's unit type; south-up and rotated 90 degrees. Void: the declared nodata value (also when
+/// the file states it inexactly), NaN, infinities, and undeclared -32768, -32767, -9999, |x| > 12,000 m.
+/// Several sources join on the grid of the first (its spacing, CRS and phase); where they overlap the first
+/// listed wins; aligned tiles are copied exactly, others resampled bilinearly, voids never bleeding. Gaps
+/// between tiles are void; a one-cell gap between pixel-is-area neighbours does not arise, they meet.
+///
+/// Fails with one line (file, place, expectation) on anything unreadable, truncated, or without a valid sample.
+lod::Result<HeightGrid> read_height_grid(const std::vector<std::string>& paths, const HeightGridOptions& options);
+
+/// A grid without CRS, for tests, benchmarks and generated relief: spacing_m between samples, sample (0, 0) at
+/// x = 0, y = (height - 1) * spacing_m, rows going south.
+HeightGrid make_planar_grid(int width, int height, double spacing_m, std::vector<float> height_m);
+
+}  // namespace data
