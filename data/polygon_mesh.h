@@ -56,8 +56,9 @@ struct PolygonMeshStats {
 
 /// Reads a polygon model through Assimp: AC3D, glTF/GLB, OBJ, PLY, STL and whatever else it opens; .gz by zlib.
 /// Node transforms are kept; n-gons are triangulated (n - 2 triangles, also non-convex ones); smooth normals are
-/// made where the file has none. Axes are those of the file, except that formats which are y-up by definition
-/// (glTF, AC3D, OBJ) are turned to +z up, -y... see docs/conventions.md.
+/// made where the file has none. Mesh frame: +z up, front towards -y. Files that are y-up by definition (glTF,
+/// AC3D) get the turn (x, y, z) -> (x, -z, y) in their root nodes' transforms; all others are taken as they are.
+/// Node frames below the roots stay those of the file.
 /// Fails on unreadable or truncated files, NaN vertices and files without a single triangle.
 lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshStats* stats = nullptr);
 

@@ -1,0 +1,79 @@
+// RigidFront: parts of fixed geometry, drawn whole or not at all.
+//
+// What objects and instruments offer before they become adaptive: no operation to refine or coarsen, error 0
+// (the source itself is drawn), culling by bounding sphere. A part belongs to a body; a body is a frame that may
+// move every frame (a needle, a vehicle) while the part's vertices stay where they are in the pool.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lod/front.h"
+
+namespace lod {
+
+/// Where a body is.
+struct BodyPose {
+    enum class Frame : uint8_t {
+        kWorld,   ///< vertices are world positions; the pose is ignored
+        kPlaced,  ///< reference_from_body maps body to world
+        kEye      ///< reference_from_body maps body to the eye frame: fixed in the cockpit
+    };
+    Frame frame = Frame::kWorld;
+    glm::dmat3 reference_from_body{1.0};  ///< rotation times uniform scale
+    glm::dvec3 origin{0.0};               ///< the body's origin in the reference frame, metres
+};
+
+/// A piece of geometry with one bounding sphere; one draw item. Tens to some thousands of triangles.
+struct RigidPart {
+    uint32_t body = 0;
+    std::vector<Vertex> vertices;   ///< body frame
+    std::vector<uint32_t> indices;  ///< three per triangle, into `vertices`
+    bool is_glass = false;
+};
+
+class RigidFront final : public Front {
+  public:
+    /// CHECKs that every part names a body and every index a vertex.
+    RigidFront(Module module, std::vector<RigidPart> parts, std::vector<BodyPose> bodies);
+
+    /// Moves a body; takes effect with the next emit.
+    void set_pose(uint32_t body, const BodyPose& pose);
+
+    /// For vertices of Material::kWallFoot: the ground's screen error of this frame, px.
+    void set_ground_error_px(double error_px);
+
+    void begin_frame(std::span<const View> views, double time_s) override;
+    double refine_error_px() override { return 0.0; }
+    double coarsen_error_px() override;
+    Step refine() override { return {}; }
+    Step coarsen(double) override { return {}; }
+    uint64_t triangles() const override { return triangles_; }
+    double error_px() override { return 0.0; }
+    OperationCounts operations() const override { return {}; }
+    uint64_t hash() const override;
+    PoolRegion pool_need() const override;
+    void place(const PoolRegion& region) override;
+    void emit(const View& view, DrawList& out) override;
+    uint64_t emitted_triangles() const override { return emitted_; }
+    std::string validate() const override;
+
+  private:
+    struct Placed {
+        glm::dvec3 centre{0.0};  ///< body frame
+        double radius_m = 0.0;
+        uint32_t body = 0, first_index = 0, index_count = 0;
+        bool is_glass = false;
+    };
+    Module module_;
+    std::vector<Vertex> vertices_;
+    std::vector<uint32_t> indices_;
+    std::vector<Placed> parts_;
+    std::vector<BodyPose> bodies_;
+    PoolRegion region_;
+    bool is_written_ = false;
+    double ground_error_px_ = 0.0;
+    uint64_t triangles_ = 0, emitted_ = 0;
+};
+
+}  // namespace lod
