@@ -11,8 +11,13 @@ target_compile_definitions(harrier_flags INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE
 # harrier_module(NAME SOURCES... HEADERS... LINK...)
 function(harrier_module name)
     cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK" ${ARGN})
-    add_library(harrier_${name} STATIC ${ARG_SOURCES})
-    target_link_libraries(harrier_${name} PUBLIC harrier_flags ${ARG_LINK})
+    if(ARG_SOURCES)
+        add_library(harrier_${name} STATIC ${ARG_SOURCES})
+        target_link_libraries(harrier_${name} PUBLIC harrier_flags ${ARG_LINK})
+    else()  # headers only
+        add_library(harrier_${name} INTERFACE)
+        target_link_libraries(harrier_${name} INTERFACE harrier_flags ${ARG_LINK})
+    endif()
 
     set(probes)
     foreach(header ${ARG_HEADERS})
