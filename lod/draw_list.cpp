@@ -40,9 +40,9 @@ Vertex make_vertex(const glm::dvec3& position, const glm::vec3& normal, const gl
     Vertex vertex;
     split_hi_lo(position, vertex.position_hi, vertex.position_lo);
     encode_normal(normal, vertex.surface);
-    vertex.colour[0] = colour.r;
-    vertex.colour[1] = colour.g;
-    vertex.colour[2] = colour.b;
+    vertex.colour[0] = colour.x;
+    vertex.colour[1] = colour.y;
+    vertex.colour[2] = colour.z;
     vertex.colour[3] = static_cast<uint8_t>(material);
     return vertex;
 }

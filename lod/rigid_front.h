@@ -1,8 +1,8 @@
 // RigidFront: parts of fixed geometry, drawn whole or not at all.
 //
 // What objects and instruments offer before they become adaptive: no operation to refine or coarsen, error 0
-// (the source itself is drawn), culling by bounding sphere. A part belongs to a body; a body is a frame that may
-// move every frame (a needle, a vehicle) while the part's vertices stay where they are in the pool.
+// (the source itself is drawn), culling by bounding sphere. A part belongs to a body; a body is a frame that
+// may move every frame (a needle, a vehicle) while the part's vertices stay where they are in the pool.
 #pragma once
 
 #include <string>
@@ -43,6 +43,10 @@ class RigidFront final : public Front {
     /// For vertices of Material::kWallFoot: the ground's screen error of this frame, px.
     void set_ground_error_px(double error_px);
 
+    /// The local vertical at the eye, world frame, not zero: the direction in which feet of walls are
+    /// lowered.
+    void set_up_world(const glm::dvec3& up_world);
+
     void begin_frame(std::span<const View> views, double time_s) override;
     double refine_error_px() override { return 0.0; }
     double coarsen_error_px() override;
@@ -62,17 +66,24 @@ class RigidFront final : public Front {
     struct Placed {
         glm::dvec3 centre{0.0};  ///< body frame
         double radius_m = 0.0;
-        uint32_t body = 0, first_index = 0, index_count = 0;
+        uint32_t body = 0, first_vertex = 0, vertex_count = 0, first_index = 0, index_count = 0;
         bool is_glass = false;
     };
+    bool is_outside(const Placed& part, const ViewMetric& metric) const;
+    Instance instance_of(const BodyPose& pose, const View& view) const;
+    void emit_writes(DrawList& out);
+
     Module module_;
     std::vector<Vertex> vertices_;
     std::vector<uint32_t> indices_;
     std::vector<Placed> parts_;
     std::vector<BodyPose> bodies_;
+    std::vector<uint32_t> instance_of_body_;  ///< scratch of emit: the body's record in this view
     PoolRegion region_;
     bool is_written_ = false;
     double ground_error_px_ = 0.0;
+    glm::dvec3 up_world_{0.0, 0.0, 1.0};
+    uint64_t hash_ = 0;
     uint64_t triangles_ = 0, emitted_ = 0;
 };
 
