@@ -38,6 +38,12 @@ def is_test_of(path, layers):
     return parts[0] == "tests" and len(parts) > 2 and parts[1] in layers
 
 
+def is_generated(root, path, target):
+    """A header that the folder's CMakeLists.txt makes."""
+    cmake = pathlib.Path(root, path.split("/")[0], "CMakeLists.txt")
+    return cmake.is_file() and pathlib.PurePosixPath(target).name in cmake.read_text(encoding="utf-8")
+
+
 def problems(root):
     found = []
     for path, text in project.sources(root):
@@ -45,6 +51,8 @@ def problems(root):
         for include in INCLUDE.finditer(text):
             place = f"{path}:{project.line_of(text, include.start())}"
             target = include.group(1)
+            if is_generated(root, path, target):
+                continue
             if not (pathlib.Path(root) / target).is_file():
                 found.append(f'{place}: "{target}" is no file of the project; expected a path from the root, or <>')
             elif layer in ALLOWED and layer_of(target) not in ALLOWED[layer]:
