@@ -13,13 +13,13 @@ namespace objects {
 struct BuildingSite {
     glm::dvec3 base_world{0.0};  ///< the outer ring's first point on the source ground
     double lowest_ground_m = 0.0, highest_ground_m = 0.0;  ///< source ground along the rings
-    uint32_t footprint = 0;      ///< index into the input
+    uint32_t footprint = 0;                                ///< index into the input
 };
 
 struct Buildings {
     std::vector<lod::RigidPart> parts;  ///< body 0, world frame
     std::vector<BuildingSite> sites;
-    uint64_t off_terrain = 0;           ///< footprints outside the terrain or on a void: not built
+    uint64_t off_terrain = 0;  ///< footprints outside the terrain or on a void: not built
 };
 
 struct BuildingOptions {
