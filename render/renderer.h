@@ -28,18 +28,19 @@ struct PoolCapacity {
 
 struct RendererOptions {
     int width_px = 640, height_px = 360;
-    bool window = false;        ///< a GLFW window instead of an offscreen target
+    bool window = false;  ///< a GLFW window instead of an offscreen target
     std::string window_title = "Harrier";
     PoolCapacity pool;
 };
 
 /// Light, air and sky of one frame. Directions in the world frame, colours linear sRGB in [0, 1].
 struct Atmosphere {
-    glm::dvec3 sun_world{0.0, 0.0, 1.0};   ///< towards the sun, unit length
-    glm::dvec3 up_world{0.0, 0.0, 1.0};    ///< local vertical at the eye, unit length
+    glm::dvec3 sun_world{0.0, 0.0, 1.0};       ///< towards the sun, unit length
+    glm::dvec3 up_world{0.0, 0.0, 1.0};        ///< local vertical at the eye, unit length
     glm::vec3 clear_colour{1.0f, 0.0f, 1.0f};  ///< magenta where nothing is drawn: holes show
-    double visibility_m = 40000.0;         ///< distance at which haze leaves 5 % of the contrast
-    double eye_height_m = 0.0;             ///< above the ground's datum, thins the haze
+    double visibility_m = 40000.0;             ///< distance at which haze leaves 5 % of the contrast
+    double eye_height_m = 0.0;                 ///< above the ground's datum, thins the haze
+    bool draw_sky = true;                      ///< false: `clear_colour` shows wherever no item draws
 };
 
 /// Sizes in bytes and calls of the last frame, counted by the renderer itself.
@@ -57,7 +58,8 @@ struct ColourImage {
 };
 struct DepthImage {
     int width = 0, height = 0;
-    std::vector<float> depth_m;  ///< along the line of sight (-z eye), metres; +infinity where nothing was drawn
+    std::vector<float>
+        depth_m;  ///< along the line of sight (-z eye), metres; +infinity where nothing was drawn
 };
 
 /// Every triangle of the last draw, read back from the GPU's own buffers.
@@ -80,8 +82,8 @@ class Renderer {
 
     /// Colour of the ground, row-major from the north-west; mipmapped. Texel centres sit on samples when the
     /// image has the grid's size; `grid_width/height` say how many samples the image spans.
-    lod::Result<lod::Ok> set_ground_texture(int width, int height, std::span<const uint8_t> rgba, int grid_width,
-                                            int grid_height);
+    lod::Result<lod::Ok> set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
+                                            int grid_width, int grid_height);
 
     /// Grows the pool; contents are lost. Counts as an allocation.
     lod::Result<lod::Ok> resize_pool(const PoolCapacity& pool);

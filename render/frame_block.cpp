@@ -1,0 +1,41 @@
+#include "render/frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace render {
+
+namespace {
+
+constexpr double kHazeScaleHeight_m = 2500.0;  ///< height over which haze thins to 1/e
+constexpr double kSunRadius_rad = 0.0075;      ///< a little larger than the real disc: reads better
+constexpr double kVisibleContrast = 0.05;      ///< what "visibility" means
+
+std::array<float, 4> vec4_of(const glm::dvec3& v, double w) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+}  // namespace
+
+FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, int grid_width,
+                          int grid_height) {
+    const lod::ViewMetric metric = lod::metric_of(view);
+    const double extinction_per_m = -std::log2(kVisibleContrast) / std::max(atmosphere.visibility_m, 1.0);
+    const double thinning_per_m = std::numbers::log2e / kHazeScaleHeight_m;
+    const double eye_thinning = std::max(atmosphere.eye_height_m, 0.0) * thinning_per_m;
+
+    FrameBlock block;
+    block.projection =
+        vec4_of({1.0 / metric.tan_x, 1.0 / metric.tan_y, metric.near_m}, 1.0 / metric.lambda_px);
+    block.ray =
+        vec4_of({2.0 * metric.tan_x / view.width_px, 2.0 * metric.tan_y / view.height_px, -metric.tan_x},
+                -metric.tan_y);
+    block.sun_eye = vec4_of(view.eye_from_world * atmosphere.sun_world, std::cos(kSunRadius_rad));
+    block.up_eye = vec4_of(view.eye_from_world * atmosphere.up_world, 0.0);
+    block.haze = vec4_of({extinction_per_m, thinning_per_m, eye_thinning}, std::exp2(-eye_thinning));
+    block.ground_grid = vec4_of({1.0 / grid_width, 1.0 / grid_height, 0.0}, 0.0);
+    return block;
+}
+
+}  // namespace render

@@ -1,0 +1,47 @@
+#include "render/ground_texture.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+namespace render {
+
+namespace {
+
+void set_filter(GLuint texture, bool is_software) {
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
+                        is_software ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    if (!is_software && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8.0f);
+    }
+}
+
+}  // namespace
+
+lod::Result<Texture2D> make_ground_texture(int width, int height, std::span<const uint8_t> rgba,
+                                           bool is_software) {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (width < 1 || height < 1 || width > limit || height > limit) {
+        return lod::Error{"ground texture of " + size + " texels, expected 1x1 to " + std::to_string(limit) +
+                          "x" + std::to_string(limit)};
+    }
+    const size_t expected_bytes = static_cast<size_t>(width) * static_cast<size_t>(height) * 4;
+    if (rgba.size() != expected_bytes) {
+        return lod::Error{"ground texture of " + size + " texels has " + std::to_string(rgba.size()) +
+                          " bytes, expected " + std::to_string(expected_bytes)};
+    }
+    const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
+    Texture2D texture = Texture2D::create();
+    glTextureStorage2D(texture.id(), levels, GL_RGBA8, width, height);
+    glTextureSubImage2D(texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    glGenerateTextureMipmap(texture.id());
+    set_filter(texture.id(), is_software);
+    return texture;
+}
+
+}  // namespace render

@@ -1,0 +1,126 @@
+#include "render/shaders.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "lod/draw_list.h"
+#include "render/frame_block.h"
+#include "render_shaders.h"
+
+namespace render {
+
+namespace {
+
+std::string constant(const char* name, lod::Material material) {
+    return "const uint " + std::string(name) + " = " + std::to_string(static_cast<unsigned>(material)) +
+           "u;\n";
+}
+
+std::string preamble() {
+    return "#version 450 core\n#extension GL_ARB_shader_draw_parameters : require\n" +
+           constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
+           constant("kRoof", lod::Material::kRoof) + constant("kPaint", lod::Material::kPaint) +
+           constant("kGlow", lod::Material::kGlow) + constant("kGlass", lod::Material::kGlass) +
+           constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot);
+}
+
+/// The driver's log up to its first line break.
+std::string first_line(const std::array<char, 1024>& log) {
+    const std::string text(log.data());
+    return text.substr(0, text.find('\n'));
+}
+
+lod::Result<lod::Ok> compile(GLuint shader, const char* body, const char* name) {
+    const std::string head = preamble();
+    const std::array<const char*, 3> parts{head.c_str(), glsl::kFrame, body};
+    glShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
+    glCompileShader(shader);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_TRUE) return lod::Ok{};
+    std::array<char, 1024> log{};
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    return lod::Error{"the driver rejects shader " + std::string(name) + ": " + first_line(log)};
+}
+
+struct Member {
+    const char* name;
+    size_t offset;
+};
+
+constexpr std::array kInstanceMembers{
+    Member{"instances[0].eye_from_model[0]", offsetof(lod::Instance, eye_from_model)},
+    Member{"instances[0].origin_hi", offsetof(lod::Instance, origin_hi)},
+    Member{"instances[0].origin_lo", offsetof(lod::Instance, origin_lo)},
+    Member{"instances[0].up_eye", offsetof(lod::Instance, up_eye)},
+    Member{"instances[0].is_world", offsetof(lod::Instance, is_world)},
+    Member{"instances[0].module", offsetof(lod::Instance, module)},
+};
+constexpr std::array kFrameMembers{
+    Member{"projection", offsetof(FrameBlock, projection)},
+    Member{"ray", offsetof(FrameBlock, ray)},
+    Member{"sun_eye", offsetof(FrameBlock, sun_eye)},
+    Member{"up_eye", offsetof(FrameBlock, up_eye)},
+    Member{"haze", offsetof(FrameBlock, haze)},
+    Member{"ground_grid", offsetof(FrameBlock, ground_grid)},
+};
+
+GLint property_of(GLuint program, GLenum interface, const char* name, GLenum property) {
+    const GLuint index = glGetProgramResourceIndex(program, interface, name);
+    GLint value = -1;
+    if (index == GL_INVALID_INDEX) return value;
+    glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &value);
+    return value;
+}
+
+lod::Result<lod::Ok> check_members(GLuint program, GLenum interface, std::span<const Member> members) {
+    for (const Member& member : members) {
+        const GLint offset = property_of(program, interface, member.name, GL_OFFSET);
+        if (offset != static_cast<GLint>(member.offset)) {
+            return lod::Error{"shader member " + std::string(member.name) + " lies at byte " +
+                              std::to_string(offset) + ", expected " + std::to_string(member.offset)};
+        }
+    }
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> check_layout(GLuint program) {
+    auto frame = check_members(program, GL_UNIFORM, kFrameMembers);
+    if (!frame) return frame;
+    auto instance = check_members(program, GL_BUFFER_VARIABLE, kInstanceMembers);
+    if (!instance) return instance;
+    const GLint stride =
+        property_of(program, GL_BUFFER_VARIABLE, "instances[0].origin_hi", GL_TOP_LEVEL_ARRAY_STRIDE);
+    if (stride != static_cast<GLint>(sizeof(lod::Instance))) {
+        return lod::Error{"shader instances are " + std::to_string(stride) + " bytes apart, expected " +
+                          std::to_string(sizeof(lod::Instance))};
+    }
+    return lod::Ok{};
+}
+
+}  // namespace
+
+lod::Result<Program> make_scene_program() {
+    const VertexShader vertex = VertexShader::create();
+    const FragmentShader fragment = FragmentShader::create();
+    if (auto ok = compile(vertex.id(), glsl::kSceneVertex, "scene.vert"); !ok) return ok.error();
+    if (auto ok = compile(fragment.id(), glsl::kSceneFragment, "scene.frag"); !ok) return ok.error();
+
+    Program program = Program::create();
+    glAttachShader(program.id(), vertex.id());
+    glAttachShader(program.id(), fragment.id());
+    glLinkProgram(program.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        std::array<char, 1024> log{};
+        glGetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+        return lod::Error{"the driver cannot link the scene shaders: " + first_line(log)};
+    }
+    if (auto ok = check_layout(program.id()); !ok) return ok.error();
+    return program;
+}
+
+}  // namespace render

@@ -1,0 +1,99 @@
+// Every vertex of the scene. The preamble (shaders.cpp) gives #version, extensions and the kMaterial constants.
+
+// lod::Vertex
+layout(location = 0) in vec3 position_hi;
+layout(location = 1) in vec3 position_lo;
+layout(location = 2) in uvec2 surface;
+layout(location = 3) in uvec4 colour_material;
+
+// lod::Instance
+struct Instance {
+    vec4 eye_from_model[3];  // rows
+    vec4 origin_hi;
+    vec4 origin_lo;
+    vec4 up_eye;
+    uint is_world;
+    uint module;
+    uint unused[2];
+};
+layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
+
+out gl_PerVertex { vec4 gl_Position; };
+out vec4 v_colour;                 // display values, premultiplied by alpha
+out vec2 v_ground_uv;
+flat out float v_ground_share;     // 1: the ground texture multiplies, 0: it does not
+
+// Linear light on a white surface; a clear morning: warm sun, blue sky, a little light back from the ground.
+const vec3 kSunLight = vec3(1.00, 0.90, 0.74) * 0.86;
+const vec3 kSkyLight = vec3(0.74, 0.87, 1.10) * 0.40;
+const vec3 kGroundLight = vec3(0.92, 0.84, 0.70) * 0.17;
+const vec3 kReflectedZenith = vec3(0.42, 0.60, 0.82);
+const vec3 kReflectedHorizon = vec3(0.86, 0.90, 0.93);
+
+vec3 decode_normal(uvec2 code) {
+    vec2 uv = vec2(bitfieldExtract(ivec2(code), 0, 16)) / 32767.0;
+    vec3 n = vec3(uv, 1.0 - abs(uv.x) - abs(uv.y));
+    if (n.z < 0.0) n.xy = (1.0 - abs(uv.yx)) * mix(vec2(1.0), vec2(-1.0), lessThan(uv, vec2(0.0)));
+    return n;
+}
+
+vec3 position_in_eye(Instance instance) {
+    precise vec3 near_eye = (position_hi - instance.origin_hi.xyz) + (position_lo - instance.origin_lo.xyz);
+    precise vec3 eye = vec3(dot(instance.eye_from_model[0].xyz, near_eye),
+                            dot(instance.eye_from_model[1].xyz, near_eye),
+                            dot(instance.eye_from_model[2].xyz, near_eye));
+    return eye;
+}
+
+vec3 normal_in_eye(Instance instance) {
+    vec3 n = decode_normal(surface);
+    return normalize(vec3(dot(instance.eye_from_model[0].xyz, n), dot(instance.eye_from_model[1].xyz, n),
+                          dot(instance.eye_from_model[2].xyz, n)));
+}
+
+// Display colour of a matt surface with a soft sheen; `albedo` in display values, gamma taken as 2.
+vec3 lit(vec3 albedo, vec3 normal, vec3 towards_eye, float sheen) {
+    float lambert = max(dot(normal, sun_eye.xyz), 0.0);
+    vec3 light = kSunLight * lambert + mix(kGroundLight, kSkyLight, 0.5 + 0.5 * dot(normal, up_eye.xyz));
+    float half_way = max(dot(normal, normalize(towards_eye + sun_eye.xyz)), 0.0);
+    float half_4 = half_way * half_way * half_way * half_way;
+    float half_16 = half_4 * half_4 * half_4 * half_4;
+    return sqrt(albedo * albedo * light + kSunLight * (sheen * half_16 * lambert));
+}
+
+// A pane: hardly there when seen square on, a mirror of the sky when grazed.
+vec4 glass(vec3 tint, vec3 normal, vec3 towards_eye) {
+    float facing = abs(dot(normal, towards_eye));
+    float graze = (1.0 - facing) * (1.0 - facing);
+    vec3 mirrored = reflect(-towards_eye, normal);
+    float height = clamp(dot(mirrored, up_eye.xyz), 0.0, 1.0);
+    float alpha = 0.08 + 0.30 * graze * graze;
+    return vec4(tint * mix(kReflectedHorizon, kReflectedZenith, height) * alpha, alpha);
+}
+
+vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
+    vec3 colour = vec3(colour_material.rgb) / 255.0;
+    vec3 towards_eye = -normalize(position_eye);
+    if (material == kGround || material == kGlow) return vec4(colour, 1.0);
+    if (material == kGlass) return glass(colour, normal, towards_eye);
+    float dimming = material == kWallFoot ? 0.88 : material == kWall ? 0.97 : 1.0;
+    return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
+}
+
+void main() {
+    uint material = colour_material.a;
+    if (material == kSky) {
+        gl_Position = vec4(position_hi.xy, 0.0, 1.0);
+        v_colour = vec4(0.0, 0.0, 0.0, 1.0);
+        v_ground_uv = vec2(0.0);
+        v_ground_share = 0.0;
+        return;
+    }
+    Instance instance = instances[gl_BaseInstanceARB];
+    vec3 eye = position_in_eye(instance);
+    if (material == kWallFoot) eye += instance.up_eye.xyz * (instance.up_eye.w * eye.z * projection.w);
+    gl_Position = vec4(eye.xy * projection.xy, projection.z, -eye.z);
+    v_colour = surface_colour(material, normal_in_eye(instance), eye);
+    v_ground_uv = (vec2(surface) + 0.5) * ground_grid.xy;
+    v_ground_share = material == kGround ? 1.0 : 0.0;
+}
