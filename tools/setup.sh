@@ -1,6 +1,10 @@
 # Sourced by ./demo and ./check: installs what is missing, configures and builds build/release.
 # Every step looks first whether its work is done. Needs bash and `root`, the checkout's absolute path.
 
+# Whether somebody may type a password.
+interactive=no
+[ -t 1 ] && [ -z "${CI:-}" ] && interactive=yes
+
 # fail WORDS...: one line on standard error, status 1.
 fail() {
     printf '%s: %s\n' "${0##*/}" "$*" >&2
@@ -21,7 +25,7 @@ missing_packages() {
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then
         "$@"
-    elif [ -t 1 ] && [ -z "${CI:-}" ]; then
+    elif [ "$interactive" = yes ]; then
         sudo "$@"
     else
         sudo -n "$@"
@@ -54,17 +58,21 @@ install_packages() {
         fail "apt-get could not install ($(grep '^E: ' "$root/build/apt.log" | tail -n 1)); expected Debian 12 with its main archive; see build/apt.log"
 }
 
-# configure TESTS: build/release, with tests and benchmarks when TESTS is ON. Never turns tests off again.
+# configure TESTS: build/release, with tests and benchmarks when TESTS is ON; what is on stays on.
 configure() {
-    local build="$root/build/release" tests=$1 cache="$root/build/release/CMakeCache.txt"
-    command -v "${CXX:-g++}" >/dev/null || fail "no C++ compiler (${CXX:-g++}) after the installation; expected g++ 12 or clang++ 14"
-    local options=("-DHARRIER_TESTS=$tests" "-DHARRIER_BENCHMARKS=$tests")
-    if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
-        options+=(--fresh)  # the checkout was moved
-    elif [ "$build/build.ninja" -nt "$root/CMakePresets.json" ]; then
-        [ "$tests" = ON ] && ! grep -qx 'HARRIER_TESTS:BOOL=ON' "$cache" || return 0
+    local tests=$1 build="$root/build/release" cache="$root/build/release/CMakeCache.txt" fresh=()
+    command -v "${CXX:-g++}" >/dev/null ||
+        fail "no C++ compiler (${CXX:-g++}) after the installation; expected g++ 12 or clang++ 14"
+    if [ -f "$cache" ]; then
+        ! grep -qx 'HARRIER_TESTS:BOOL=ON' "$cache" || tests=ON
+        if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
+            fresh=(--fresh)  # the checkout was moved
+        elif [ "$build/build.ninja" -nt "$root/CMakePresets.json" ] && grep -qx "HARRIER_TESTS:BOOL=$tests" "$cache"; then
+            return 0
+        fi
     fi
-    (cd "$root" && cmake --preset release "${options[@]}" </dev/null) || fail "CMake could not configure build/release; its words are above"
+    (cd "$root" && cmake --preset release "-DHARRIER_TESTS=$tests" "-DHARRIER_BENCHMARKS=$tests" "${fresh[@]}" </dev/null) ||
+        fail "CMake could not configure build/release; its words are above"
 }
 
 # build TARGET: in build/release, one job a processor.

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROJECT = pathlib.Path(__file__).parents[2]
@@ -88,6 +89,9 @@ class Setup(unittest.TestCase):
         for again in ("demo", "check"):
             _, calls = self.run_it(again)
             self.assertFalse([call for call in calls if "--preset" in call], again)
+        os.utime(self.root / "CMakePresets.json", (time.time() + 60, time.time() + 60))
+        _, calls = self.run_it("demo")
+        self.assertIn("-DHARRIER_TESTS=ON", calls[0])
 
     def test_a_moved_checkout_is_configured_afresh(self):
         self.run_it("demo")
