@@ -1,2 +1,4 @@
 // The `harrier` program: hands the command line to the commands.
-int main() { return 2; }
+int main() {
+    return 2;
+}
