@@ -98,6 +98,7 @@ void EcefPatches::cut_into_blocks(int shift) {
     last_origin_ = size - extent;
     centre_cells_ = glm::dvec2(extent - 1) * 0.5;
     half_cells_ = glm::max(centre_cells_, glm::dvec2(0.5));
+    per_half_cell_ = 1.0 / half_cells_;
 }
 
 // Fits every stride-th block each way; keeps the patches when that is all of them.
@@ -135,20 +136,18 @@ lod::Result<EcefPatches> EcefPatches::fit(int width, int height, const ExactGrou
     return patches;
 }
 
+// The sums are written as trees: a running sum would wait for itself sixteen times.
 glm::dvec3 EcefPatches::at(int col, int row, double height_m) const {
-    const glm::ivec2 block(col >> shift_, row >> shift_);
-    const glm::dvec2 uv =
-        (glm::dvec2(glm::ivec2(col, row) - block_origin(block.x, block.y)) - centre_cells_) / half_cells_;
-    const Patch& patch = patches_[index_of(block.x, block.y)];
-    const std::array<double, 10> t = terms_at(uv.x, uv.y);
-    glm::dvec3 base = patch.base[0], up = patch.up[0];
-    for (size_t k = 1; k < 6; ++k) {
-        base += patch.base[k] * t[k];
-        up += patch.up[k] * t[k];
-    }
-    for (size_t k = 6; k < 10; ++k)
-        base += patch.base[k] * t[k];
-    return base + up * height_m;
+    const int block_col = col >> shift_, block_row = row >> shift_;
+    const int from_col = col - std::min(block_col << shift_, last_origin_.x);
+    const int from_row = row - std::min(block_row << shift_, last_origin_.y);
+    const auto& [b, w] = patches_[index_of(block_col, block_row)];
+    const std::array<double, 10> t = terms_at((from_col - centre_cells_.x) * per_half_cell_.x,
+                                              (from_row - centre_cells_.y) * per_half_cell_.y);
+    const glm::dvec3 up = (w[0] + w[1] * t[1]) + ((w[2] * t[2] + w[3] * t[3]) + (w[4] * t[4] + w[5] * t[5]));
+    const glm::dvec3 low = (b[0] + b[1] * t[1]) + ((b[2] * t[2] + b[3] * t[3]) + (b[4] * t[4] + b[5] * t[5]));
+    const glm::dvec3 high = (b[6] * t[6] + b[7] * t[7]) + (b[8] * t[8] + b[9] * t[9]);
+    return (low + high) + up * height_m;
 }
 
 }  // namespace data

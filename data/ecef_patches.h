@@ -65,6 +65,7 @@ class EcefPatches {
     glm::ivec2 last_origin_{0};     // the last blocks are moved back to end with the raster
     glm::dvec2 centre_cells_{0.0};  // from a block's first sample to its middle
     glm::dvec2 half_cells_{1.0};    // half a block's extent, at least half a cell
+    glm::dvec2 per_half_cell_{1.0};
     double error_m_ = 0.0;
     std::vector<Patch> patches_;  // [blocks_.y * blocks_.x]
 };

@@ -53,14 +53,13 @@ lod::Result<GeodeticTransform> GeodeticTransform::make(const std::string& crs) {
                           "; expected a geographic or projected one"};
     }
     if (source.IsLocal()) return GeodeticTransform(std::move(state));
+    const bool is_on_ellipsoid = (source.IsGeographic() || source.IsProjected()) && !source.IsGeocentric();
+    if (!is_on_ellipsoid) return lod::Error{"CRS is of another kind; expected a geographic or projected one"};
     source.StripVertical();
     source.DemoteTo2D(nullptr);
     source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     wgs84.SetWellKnownGeogCS("WGS84");
     wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (!source.IsGeographic() && !source.IsProjected()) {
-        return lod::Error{"CRS is neither geographic nor projected; expected one of them"};
-    }
     state->kind = source.IsGeographic() ? CrsKind::kGeographic : CrsKind::kProjected;
     if (source.IsGeographic()) state->full_turn = 2.0 * std::numbers::pi / source.GetAngularUnits(nullptr);
     state->degrees_from_crs.reset(OGRCreateCoordinateTransformation(&source, &wgs84));

@@ -36,7 +36,7 @@ class GroundFrame {
 
     /// World position of sample (col, row) at a height above the ellipsoid. 0 <= col < width, 0 <= row < height.
     /// Exact (1e-8 m) for planar and geographic rasters, within 1 mm for projected ones (ground_frame_test).
-    /// Cost: about 10 ns. Never allocates.
+    /// Cost: about 5 ns geographic, 20 ns projected (GroundFrame.IsFast). Never allocates.
     glm::dvec3 world_from_sample(int col, int row, double height_m) const;
 
     /// The same for fractional positions, by the full transformation; slow (about 1 us). May lie outside the raster.
