@@ -1,20 +1,121 @@
-// The ROAM terrain behind lod::Front: split, forced split, merge and enhMerge on the bintree of one height grid.
+// RoamFront: the ROAM terrain behind lod::Front: split, forced split, merge and enhMerge on the bintree of one
+// height grid, steered by two priority queues.
+//
+//     DiamondMesh   which diamonds are split            (diamond_mesh.h, topology)
+//     ErrorGrid     how wrong each may be, in metres    (error_grid.h, computed once)
+//     evaluate      the same in pixels, and for how long (diamond_metric.h)
+//     BucketQueue   worst candidate, cheapest merge      (bucket_queue.h)
+//     Tessellator   the triangles, in Sierpinski order   (tessellator.h)
+//
+// Sources: Duchaineau et al., ROAMing Terrain (1997): dual queues. Elykov, Lavrentiev et al. (Softlab-NSK), section
+// 5.2: enhMerge, which takes a split triangle back with everything below it, neighbours included, in one
+// operation. Differs from both: priorities are re-evaluated lazily, bounded by the eye's motion.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "data/height_grid.h"
 #include "lod/front.h"
+#include "terrain/bucket_queue.h"
+#include "terrain/diamond_mesh.h"
+#include "terrain/diamond_metric.h"
+#include "terrain/error_grid.h"
+#include "terrain/tessellator.h"
 
 namespace terrain {
 
 struct RoamOptions {
-    double tolerance_px = 1.0;  ///< the tolerance the scheduler will ask for: queue buckets have an edge there
-    unsigned threads = 2;       ///< for the error computation; the result does not depend on it
+    double tolerance_px =
+        1.0;               ///< the tolerance the scheduler will ask for: queue buckets have an edge there
+    unsigned threads = 2;  ///< for the error computation; the result does not depend on it
+    uint64_t reserve_triangles = 0;  ///< no operation allocates below this many
+    bool is_pruning =
+        true;  ///< enhMerge: take whole subtrees back; false: one merge at a time, for comparison
+};
+
+class RoamFront final : public lod::Front {
+  public:
+    /// @param grid    must outlive the front
+    /// @param errors  of the same grid
+    RoamFront(const data::HeightGrid& grid, ErrorGrid errors, const RoamOptions& options);
+
+    void begin_frame(std::span<const lod::View> views, double time_s) override;
+    double refine_error_px() override;
+    double coarsen_error_px() override;
+    lod::Step refine() override;
+    lod::Step coarsen(double limit_px) override;
+    uint64_t triangles() const override { return mesh_.triangles(); }
+    double error_px() override;
+    lod::OperationCounts operations() const override { return operations_; }
+    uint64_t hash() const override { return mesh_.hash(); }
+    lod::PoolRegion pool_need() const override;
+    void place(const lod::PoolRegion& region) override;
+    void emit(const lod::View& view, lod::DrawList& out) override;
+    uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
+    std::string validate() const override;
+
+    /// Forgets everything: back to two triangles. What Duchaineau did for incoherent frames; for comparison.
+    void reset();
+
+    const DiamondMesh& mesh() const { return mesh_; }
+    const ErrorGrid& errors() const { return errors_; }
+    /// Evaluations since construction: what lazy re-evaluation saves.
+    uint64_t evaluations() const { return evaluations_; }
+    /// Bytes of the front itself beyond the height grid and its errors, in use.
+    uint64_t memory_bytes() const;
+
+  private:
+    enum class Queue : uint8_t { kNone, kSplit, kMerge };
+    struct Rank {
+        Bucket bucket = 0;
+        uint8_t stamp = 0;  ///< frame of the evaluation, modulo 256
+        Queue queue = Queue::kNone;
+    };
+
+    void grow_arrays();
+    void make_bound(DiamondIndex index);
+    Evaluation evaluate_now(DiamondIndex index, Watch watch);
+    void rank(DiamondIndex index, Watch watch);
+    void enqueue(DiamondIndex index, Queue queue);
+    void dequeue(DiamondIndex index);
+    void refresh(DiamondIndex index);
+    void admit(DiamondIndex index);
+    uint32_t split_one(DiamondIndex index);
+    void merge_one(DiamondIndex index);
+    uint32_t merge_subtree(DiamondIndex top);
+    DiamondIndex climb(DiamondIndex index, Bucket limit);
+    void advance_odometers(std::span<const lod::View> views);
+    void collect_due();
+    void prune();
+
+    const data::HeightGrid& grid_;
+    ErrorGrid errors_;
+    RoamOptions options_;
+    BucketScale scale_;
+    glm::dvec3 anchor_{0.0};
+    std::vector<double> reach_m_;  ///< [level] centre to corner, horizontally, upper bound
+
+    DiamondMesh mesh_;
+    std::vector<DiamondBound> bounds_;  ///< [record], as all below
+    std::vector<BucketLink> links_;
+    std::vector<Rank> ranks_;
+    std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
+    BucketQueue split_queue_, merge_queue_;
+
+    std::vector<AnchoredEye> eyes_;
+    double odometer_m_ = 0.0, odometer_rad_ = 0.0;
+    double step_m_ = 0.0, step_rad_ = 0.0;  ///< this frame's motion
+    uint8_t stamp_ = 0;
+    std::vector<DiamondIndex> due_, chain_, stack_, merged_;
+
+    Tessellator tessellator_;
+    lod::OperationCounts operations_;
+    uint64_t evaluations_ = 0;
 };
 
 /// Computes the errors (about a second for 4097 x 4097 samples) and starts at the coarsest mesh.
 /// @param grid  must outlive the front
-std::unique_ptr<lod::Front> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options);
+std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options);
 
 }  // namespace terrain

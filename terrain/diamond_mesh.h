@@ -1,0 +1,115 @@
+// DiamondMesh: the set of split diamonds and the candidates around it, with the two elementary operations.
+//
+// Records live in one pool; kinship is by index, so neither operation searches or hashes. A record exists for
+// every split diamond and for every diamond that could be split next (one parent or both split). A leaf triangle
+// is a pair (unsplit diamond, split parent). 24 bytes a record, 16 more for the children of a split one.
+//
+// Invariants (terrain/validate.h proves them): a split diamond's parents are split; children link back; the mesh
+// has no T-junction.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "terrain/diamond.h"
+
+namespace terrain {
+
+using DiamondIndex = uint32_t;
+
+inline constexpr DiamondIndex kOutside = 0xffffffffu;  ///< beyond the domain, or finer than the grid
+inline constexpr DiamondIndex kUnsplit = 0xfffffffeu;  ///< parent place whose diamond is not split
+inline constexpr DiamondIndex kCornerCount = 4;        ///< records 0..3: the domain's corners, always there
+inline constexpr DiamondIndex kRoot = 4;               ///< record of the one diamond of level 0
+
+inline bool is_record(DiamondIndex index) {
+    return index < kUnsplit;
+}
+
+/// One diamond.
+struct Diamond {
+    uint16_t x = 0, y = 0;                          ///< centre
+    DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
+    uint32_t kids = kOutside;                       ///< block of four child indices; kOutside: unsplit
+    uint8_t level = 0;
+    uint8_t apex_dir = 0;
+    uint8_t slot[2] = {0, 0};  ///< this record's place among parent[i]'s children
+    uint8_t split_kids = 0;    ///< children that are split
+    bool is_split = false;
+    bool is_used = false;  ///< false: on the free list
+
+    GridPoint centre() const { return {x, y}; }
+};
+
+/// Records that a split made, for whoever ranks them.
+struct SplitOutcome {
+    std::array<DiamondIndex, 4> created{};
+    uint32_t created_count = 0;
+    std::array<DiamondIndex, 2> no_longer_mergeable{};  ///< parents that just got their first split child
+    uint32_t no_longer_mergeable_count = 0;
+};
+
+/// Records that a merge removed.
+struct MergeOutcome {
+    std::array<DiamondIndex, 4> removed{};
+    uint32_t removed_count = 0;
+    std::array<DiamondIndex, 2> mergeable{};  ///< parents that just lost their last split child
+    uint32_t mergeable_count = 0;
+};
+
+static_assert(sizeof(Diamond) == 24);
+
+class DiamondMesh {
+  public:
+    explicit DiamondMesh(const Domain& domain);
+
+    const Domain& domain() const { return domain_; }
+    const Diamond& operator[](DiamondIndex index) const { return diamonds_[index]; }
+    /// Records ever in use; indices are below this.
+    uint32_t record_count() const { return static_cast<uint32_t>(diamonds_.size()); }
+    /// Records in use now, without the corners.
+    uint32_t live_count() const {
+        return record_count() - kCornerCount - static_cast<uint32_t>(free_.size());
+    }
+    /// Leaf triangles, squeezed ones beyond the raster's border included.
+    uint64_t triangles() const { return triangles_; }
+    /// XOR of mix64 over all split diamonds.
+    uint64_t hash() const { return hash_; }
+
+    DiamondIndex child(DiamondIndex index, int side) const {
+        return diamonds_[index].kids == kOutside
+                   ? kOutside
+                   : kids_[diamonds_[index].kids][static_cast<size_t>(side & 3)];
+    }
+
+    /// The parent that must be split before `index` can be; kOutside when there is none missing.
+    DiamondIndex missing_parent(DiamondIndex index) const;
+
+    /// Splits a candidate whose parents are all split. Cost: about 40 ns.
+    SplitOutcome split(DiamondIndex index);
+
+    /// Merges a split diamond without split children.
+    MergeOutcome merge(DiamondIndex index);
+
+    /// Reserves memory so that no operation allocates below this many triangles.
+    void reserve(uint64_t triangle_count);
+
+  private:
+    DiamondIndex make_record(GridPoint centre, int level);
+    void free_record(DiamondIndex index);
+    DiamondIndex neighbour(DiamondIndex index, int side, int& neighbour_side) const;
+    DiamondIndex make_child(DiamondIndex index, int side);
+    bool drop_child(DiamondIndex child_index, DiamondIndex parent_index);
+
+    Domain domain_;
+    std::vector<Diamond> diamonds_;
+    std::vector<std::array<DiamondIndex, 4>> kids_;
+    std::vector<DiamondIndex> free_;
+    std::vector<uint32_t> free_kids_;
+    uint64_t triangles_ = 2;
+    uint64_t hash_ = 0;
+};
+
+}  // namespace terrain

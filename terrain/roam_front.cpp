@@ -1,0 +1,482 @@
+#include "terrain/roam_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lod/base/check.h"
+#include "terrain/validate.h"
+
+namespace terrain {
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+/// Odometers are floats in the records: they start again before a millimetre is lost.
+constexpr double kOdometerLimit_m = 4096.0;
+/// Once this share of the mesh must be looked at again, the frame is incoherent: prune top-down first.
+constexpr size_t kIncoherentShare = 4;
+/// Subtrees are worth taking back whole when their error is this many buckets (two octaves) below the limit.
+constexpr int kClimbMargin = 16;
+
+/// The longest cell side anywhere in the raster, metres: columns, rows.
+glm::dvec2 longest_cell_m(const data::HeightGrid& grid) {
+    glm::dvec2 longest(0.0);
+    constexpr int kProbes = 8;
+    for (int i = 0; i <= kProbes; ++i) {
+        for (int j = 0; j <= kProbes; ++j) {
+            const int col = std::min((grid.width - 2) * i / kProbes, grid.width - 2);
+            const int row = std::min((grid.height - 2) * j / kProbes, grid.height - 2);
+            const glm::dvec3 here = grid.frame.world_from_sample(col, row, double(grid.max_m));
+            const glm::dvec3 east = grid.frame.world_from_sample(col + 1, row, double(grid.max_m));
+            const glm::dvec3 south = grid.frame.world_from_sample(col, row + 1, double(grid.max_m));
+            longest = glm::max(longest, glm::dvec2(glm::length(east - here), glm::length(south - here)));
+        }
+    }
+    return longest * 1.01;
+}
+
+/// Chord of the rotation between two orientations: moves a point at distance 1 by at most this.
+double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+    return std::sqrt(sum / 2.0);
+}
+
+}  // namespace
+
+RoamFront::RoamFront(const data::HeightGrid& grid, ErrorGrid errors, const RoamOptions& options)
+    : grid_(grid), errors_(std::move(errors)), options_(options), mesh_(errors_.domain) {
+    scale_.reference_px = options.tolerance_px > 0.0 ? static_cast<float>(options.tolerance_px) : 1.0f;
+    anchor_ = grid.frame.world_from_sample(grid.width / 2, grid.height / 2,
+                                           double(grid.at(grid.width / 2, grid.height / 2)));
+    const glm::dvec2 cell = longest_cell_m(grid);
+    const auto chord = grid.frame.chord_error_per_cell2();
+    for (int level = 0; level <= errors_.domain.finest_level(); ++level) {
+        const double reach = errors_.domain.reach(level);
+        const double straight =
+            (level & 1) == 0 ? reach * std::hypot(cell.x, cell.y) : reach * std::max(cell.x, cell.y);
+        reach_m_.push_back(straight + 4.0 * reach * reach * (chord.up_m + chord.side_m));
+    }
+    mesh_.reserve(options.reserve_triangles);
+    reset();
+}
+
+void RoamFront::reset() {
+    split_queue_ = BucketQueue{};
+    merge_queue_ = BucketQueue{};
+    std::fill(ranks_.begin(), ranks_.end(), Rank{});
+    std::fill(wake_m_.begin(), wake_m_.end(), kNever);
+    std::fill(wake_rad_.begin(), wake_rad_.end(), kNever);
+    mesh_ = DiamondMesh(errors_.domain);
+    mesh_.reserve(options_.reserve_triangles);
+    grow_arrays();
+    for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
+        make_bound(corner);
+        tessellator_.add_vertex(corner);
+    }
+    make_bound(kRoot);
+    ranks_[kRoot] = Rank{};
+    enqueue(kRoot, Queue::kSplit);
+    wake_m_[kRoot] = -1.0f;  // ranked by the next frame
+}
+
+/// Room for every record the mesh has; the arrays follow its capacity, so that this rarely does anything.
+void RoamFront::grow_arrays() {
+    const size_t count = mesh_.record_count();
+    if (bounds_.size() >= count) return;
+    const size_t size =
+        std::max<size_t>({count, bounds_.size() * 2, options_.reserve_triangles * 5 / 4 + 64});
+    bounds_.resize(size);
+    links_.resize(size);
+    ranks_.resize(size);
+    wake_m_.resize(size, kNever);
+    wake_rad_.resize(size, kNever);
+    due_.reserve(size);
+    merged_.reserve(size);
+    stack_.reserve(256);
+    chain_.reserve(256);
+}
+
+void RoamFront::make_bound(DiamondIndex index) {
+    const Diamond& d = mesh_[index];
+    const Domain& domain = mesh_.domain();
+    const GridPoint centre = domain.clamped(d.centre());
+    const float height = grid_.at(centre.x, centre.y);
+    const glm::dvec3 at = grid_.frame.world_from_sample(centre.x, centre.y, double(height)) - anchor_;
+    DiamondBound& bound = bounds_[index];
+    bound.x = static_cast<float>(at.x);
+    bound.y = static_cast<float>(at.y);
+    bound.z = static_cast<float>(at.z);
+    if (index < kCornerCount) return;
+    float rise = 0.0f;
+    for (int corner = 0; corner < 4; ++corner) {
+        const GridPoint p = step_from(d.centre(), d.apex_dir + 2 * corner, domain.reach(d.level));
+        if (!domain.contains(p)) continue;
+        const GridPoint q = domain.clamped(p);
+        rise = std::max(rise, std::abs(grid_.at(q.x, q.y) - height));
+    }
+    bound.error_m = errors_.error_m(d.centre());
+    const double rounding = (std::abs(at.x) + std::abs(at.y) + std::abs(at.z)) * 0x1p-24;
+    const double reach = reach_m_[d.level];
+    bound.radius_m = static_cast<float>(
+        (std::sqrt(reach * reach + double(rise) * double(rise)) + double(bound.error_m) + rounding) *
+        (1.0 + 1e-6));
+}
+
+Evaluation RoamFront::evaluate_now(DiamondIndex index, Watch watch) {
+    ++evaluations_;
+    return evaluate(bounds_[index], eyes_, scale_, watch);
+}
+
+/// Evaluates a record and sets when it wakes next.
+void RoamFront::rank(DiamondIndex index, Watch watch) {
+    const Evaluation now = evaluate_now(index, watch);
+    ranks_[index].bucket = now.bucket;
+    ranks_[index].stamp = stamp_;
+    // The guard is shared out between walking and turning in the proportion of this frame's motion.
+    const double turned_m = step_rad_ * double(now.distance_m);
+    const double walk_share = std::clamp(step_m_ / (step_m_ + turned_m + 1e-30), 0.1, 0.9);
+    const double walk_m = double(now.guard_m) * walk_share;
+    const double turn_rad = (double(now.guard_m) - walk_m) / (double(now.distance_m) + walk_m + 1e-6);
+    wake_m_[index] = static_cast<float>((odometer_m_ + walk_m) * (1.0 - 1e-6));
+    wake_rad_[index] = static_cast<float>((odometer_rad_ + turn_rad) * (1.0 - 1e-6));
+}
+
+void RoamFront::enqueue(DiamondIndex index, Queue queue) {
+    Rank& r = ranks_[index];
+    DCHECK(r.queue == Queue::kNone);
+    r.queue = queue;
+    (queue == Queue::kSplit ? split_queue_ : merge_queue_).push(links_, index, r.bucket);
+}
+
+void RoamFront::dequeue(DiamondIndex index) {
+    Rank& r = ranks_[index];
+    if (r.queue == Queue::kNone) return;
+    (r.queue == Queue::kSplit ? split_queue_ : merge_queue_).remove(links_, index, r.bucket);
+    r.queue = Queue::kNone;
+    wake_m_[index] = wake_rad_[index] = kNever;
+}
+
+/// Evaluates a queued record anew and moves it to its bucket.
+void RoamFront::refresh(DiamondIndex index) {
+    Rank& r = ranks_[index];
+    const Bucket before = r.bucket;
+    const Queue queue = r.queue;
+    rank(index, queue == Queue::kMerge ? Watch::kRiseAndFall : Watch::kRise);
+    if (r.bucket == before) return;
+    BucketQueue& home = queue == Queue::kSplit ? split_queue_ : merge_queue_;
+    home.remove(links_, index, before);
+    home.push(links_, index, r.bucket);
+}
+
+/// A new candidate.
+void RoamFront::admit(DiamondIndex index) {
+    make_bound(index);
+    rank(index, Watch::kRise);
+    enqueue(index, Queue::kSplit);
+}
+
+void RoamFront::advance_odometers(std::span<const lod::View> views) {
+    bool is_comparable = views.size() == eyes_.size();
+    std::vector<AnchoredEye>& eyes = eyes_;
+    step_m_ = step_rad_ = 0.0;
+    for (size_t i = 0; i < views.size(); ++i) {
+        const AnchoredEye now{lod::metric_of(views[i]), views[i].eye_world - anchor_};
+        if (i < eyes.size()) {
+            const lod::ViewMetric& then = eyes[i].metric;
+            is_comparable = is_comparable && then.lambda_px == now.metric.lambda_px &&
+                            then.tan_x == now.metric.tan_x && then.tan_y == now.metric.tan_y &&
+                            then.near_m == now.metric.near_m;
+            step_m_ = std::max(step_m_, glm::length(now.eye - eyes[i].eye));
+            step_rad_ = std::max(step_rad_, rotation_chord(now.metric.eye_from_world, then.eye_from_world));
+        }
+    }
+    eyes.clear();
+    for (const lod::View& view : views)
+        eyes.push_back({lod::metric_of(view), view.eye_world - anchor_});
+    odometer_m_ += step_m_;
+    odometer_rad_ += step_rad_;
+    if (is_comparable && odometer_m_ < kOdometerLimit_m && odometer_rad_ < kOdometerLimit_m) return;
+    // Other optics, or the odometers are full: start again. What sleeps keeps the rest of its guard, unless
+    // the optics changed: then everything wakes.
+    for (size_t i = 0; i < wake_m_.size(); ++i) {
+        if (wake_m_[i] == kNever) continue;
+        wake_m_[i] = is_comparable ? static_cast<float>((double(wake_m_[i]) - odometer_m_) - 1e-3) : -1.0f;
+        wake_rad_[i] =
+            is_comparable ? static_cast<float>((double(wake_rad_[i]) - odometer_rad_) - 1e-7) : -1.0f;
+    }
+    odometer_m_ = odometer_rad_ = 0.0;
+}
+
+/// Every record whose guard this frame's motion may have used up.
+void RoamFront::collect_due() {
+    constexpr size_t kBlock = 64;
+    due_.clear();
+    const float walked = static_cast<float>(odometer_m_), turned = static_cast<float>(odometer_rad_);
+    const size_t count = mesh_.record_count();
+    for (size_t begin = 0; begin < count; begin += kBlock) {
+        const size_t end = std::min(count, begin + kBlock);
+        int any = 0;
+        for (size_t i = begin; i < end; ++i)
+            any |= static_cast<int>(wake_m_[i] < walked) | static_cast<int>(wake_rad_[i] < turned);
+        if (any == 0) continue;
+        for (size_t i = begin; i < end; ++i) {
+            if (wake_m_[i] < walked || wake_rad_[i] < turned) due_.push_back(static_cast<DiamondIndex>(i));
+        }
+    }
+}
+
+/// Top-down over an incoherent frame: what the eye cannot see, or sees far below the tolerance, goes whole.
+void RoamFront::prune() {
+    const Bucket limit = scale_.bucket_of(scale_.reference_px * 0.25f);
+    chain_.clear();
+    if (mesh_[kRoot].is_split) chain_.push_back(kRoot);
+    while (!chain_.empty()) {
+        const DiamondIndex index = chain_.back();
+        chain_.pop_back();
+        if (!mesh_[index].is_used || !mesh_[index].is_split) continue;
+        if (evaluate_now(index, Watch::kRise).bucket < limit) {
+            merge_subtree(index);
+            continue;
+        }
+        for (int side = 0; side < 4; ++side) {
+            const DiamondIndex child = mesh_.child(index, side);
+            // A diamond is reached through its second parent only, so that it is looked at once.
+            if (is_record(child) && mesh_[child].is_split &&
+                (mesh_[child].parent[1] == index || !is_record(mesh_[child].parent[1]))) {
+                chain_.push_back(child);
+            }
+        }
+    }
+}
+
+void RoamFront::begin_frame(std::span<const lod::View> views, double) {
+    CHECK(!views.empty());
+    advance_odometers(views);
+    ++stamp_;
+    tessellator_.begin_frame();
+    collect_due();
+    if (options_.is_pruning && due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64) {
+        prune();
+    }
+    for (DiamondIndex index : due_) {
+        if (ranks_[index].queue != Queue::kNone && ranks_[index].stamp != stamp_) refresh(index);
+    }
+}
+
+double RoamFront::refine_error_px() {
+    while (!split_queue_.is_empty()) {
+        const Bucket bucket = split_queue_.highest();
+        if (bucket == kHiddenBucket) return 0.0;
+        const DiamondIndex head = split_queue_.head(bucket);
+        if (ranks_[head].stamp != stamp_) {
+            refresh(head);
+            continue;
+        }
+        return bucket == kFlatBucket ? 1e-30 : double(scale_.upper_px(bucket));
+    }
+    return 0.0;
+}
+
+double RoamFront::coarsen_error_px() {
+    while (!merge_queue_.is_empty()) {
+        const Bucket bucket = merge_queue_.lowest();
+        const DiamondIndex head = merge_queue_.head(bucket);
+        if (ranks_[head].stamp != stamp_) {
+            refresh(head);
+            continue;
+        }
+        return bucket <= kFlatBucket ? 0.0 : double(scale_.lower_px(bucket));
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+double RoamFront::error_px() {
+    if (split_queue_.is_empty()) return 0.0;
+    return double(scale_.upper_px(split_queue_.highest()));
+}
+
+/// Splits one candidate whose parents are split.
+uint32_t RoamFront::split_one(DiamondIndex index) {
+    dequeue(index);
+    const SplitOutcome outcome = mesh_.split(index);
+    grow_arrays();
+    tessellator_.add_vertex(index);
+    for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i)
+        dequeue(outcome.no_longer_mergeable[i]);
+    for (uint32_t i = 0; i < outcome.created_count; ++i)
+        admit(outcome.created[i]);
+    rank(index, Watch::kRiseAndFall);
+    enqueue(index, Queue::kMerge);
+    return 1;
+}
+
+lod::Step RoamFront::refine() {
+    lod::Step step;
+    if (refine_error_px() <= 0.0) return step;
+    const uint64_t before = mesh_.triangles();
+    chain_.assign(1, split_queue_.head(split_queue_.highest()));
+    while (!chain_.empty()) {
+        const DiamondIndex missing = mesh_.missing_parent(chain_.back());
+        if (missing != kOutside) {
+            chain_.push_back(missing);
+            continue;
+        }
+        step.steps += split_one(chain_.back());
+        chain_.pop_back();
+        ++operations_[chain_.empty() ? lod::OperationKind::kSplit : lod::OperationKind::kForcedSplit];
+    }
+    step.triangle_delta = static_cast<int64_t>(mesh_.triangles() - before);
+    return step;
+}
+
+/// Merges one diamond without split children; its record becomes a candidate again.
+void RoamFront::merge_one(DiamondIndex index) {
+    ranks_[index].queue = Queue::kMerge;
+    merge_queue_.remove(links_, index, ranks_[index].bucket);
+    ranks_[index].queue = Queue::kNone;
+    const MergeOutcome outcome = mesh_.merge(index);
+    for (uint32_t i = 0; i < outcome.removed_count; ++i)
+        dequeue(outcome.removed[i]);
+    for (uint32_t i = 0; i < outcome.mergeable_count; ++i) {
+        rank(outcome.mergeable[i], Watch::kRiseAndFall);
+        enqueue(outcome.mergeable[i], Queue::kMerge);
+    }
+    enqueue(index, Queue::kSplit);  // its evaluation watched for a rise, too
+}
+
+/// enhMerge: takes back `top` and every split diamond below it. Returns how many that were.
+uint32_t RoamFront::merge_subtree(DiamondIndex top) {
+    stack_.assign(1, top);
+    merged_.clear();
+    uint32_t count = 0;
+    while (!stack_.empty()) {
+        const DiamondIndex index = stack_.back();
+        DiamondIndex below = kOutside;
+        for (int side = 0; side < 4 && mesh_[index].split_kids > 0; ++side) {
+            const DiamondIndex child = mesh_.child(index, side);
+            if (is_record(child) && mesh_[child].is_split) {
+                below = child;
+                break;
+            }
+        }
+        if (below != kOutside) {
+            stack_.push_back(below);
+            continue;
+        }
+        stack_.pop_back();
+        dequeue(index);
+        const MergeOutcome outcome = mesh_.merge(index);
+        ++count;
+        merged_.push_back(index);
+        for (uint32_t i = 0; i < outcome.removed_count; ++i)
+            dequeue(outcome.removed[i]);
+        for (uint32_t i = 0; i < outcome.mergeable_count; ++i)
+            merged_.push_back(outcome.mergeable[i]);
+    }
+    // What survived: the rim, as candidates or as diamonds that can be merged next.
+    for (DiamondIndex index : merged_) {
+        const Diamond& d = mesh_[index];
+        if (!d.is_used || ranks_[index].queue != Queue::kNone || (d.is_split && d.split_kids > 0)) continue;
+        rank(index, d.is_split ? Watch::kRiseAndFall : Watch::kRise);
+        enqueue(index, d.is_split ? Queue::kMerge : Queue::kSplit);
+    }
+    return count;
+}
+
+/// The highest ancestor that may go as well: everything below it is then within the limit.
+DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
+    while (true) {
+        const Diamond& d = mesh_[index];
+        DiamondIndex next = kOutside;
+        for (DiamondIndex parent : d.parent) {
+            if (!is_record(parent) || parent < kCornerCount) continue;
+            if (evaluate_now(parent, Watch::kRise).bucket < limit) {
+                next = parent;
+                break;
+            }
+        }
+        if (next == kOutside) return index;
+        index = next;
+    }
+}
+
+lod::Step RoamFront::coarsen(double limit_px) {
+    lod::Step step;
+    if (coarsen_error_px() > limit_px) return step;
+    const uint64_t before = mesh_.triangles();
+    const Bucket bucket = merge_queue_.lowest();
+    const DiamondIndex head = merge_queue_.head(bucket);
+    const Bucket limit = limit_px > 0.0 ? scale_.bucket_of(static_cast<float>(limit_px)) : kFlatBucket;
+    const bool is_far_below = bucket == kHiddenBucket || bucket + kClimbMargin <= limit;
+    const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, limit) : head;
+    if (top == head) {
+        merge_one(head);
+        step.steps = 1;
+        ++operations_[lod::OperationKind::kMerge];
+    } else {
+        step.steps = merge_subtree(top);
+        ++operations_[lod::OperationKind::kEnhMerge];
+    }
+    step.triangle_delta = static_cast<int64_t>(mesh_.triangles()) - static_cast<int64_t>(before);
+    return step;
+}
+
+lod::PoolRegion RoamFront::pool_need() const {
+    const uint64_t triangles = std::max(mesh_.triangles(), options_.reserve_triangles);
+    const uint64_t records =
+        std::max<uint64_t>(mesh_.record_count(), options_.reserve_triangles * 5 / 4 + 64);
+    return Tessellator::need(triangles, static_cast<uint32_t>(records));
+}
+
+void RoamFront::place(const lod::PoolRegion& region) {
+    tessellator_.place(region);
+}
+
+void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
+    tessellator_.emit({grid_, errors_, mesh_, bounds_, anchor_}, view, out);
+}
+
+uint64_t RoamFront::memory_bytes() const {
+    const uint64_t record =
+        sizeof(Diamond) + sizeof(DiamondBound) + sizeof(BucketLink) + sizeof(Rank) + 2 * sizeof(float);
+    const uint64_t split = (mesh_.triangles() - 2) / 2;
+    return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
+}
+
+std::string RoamFront::validate() const {
+    std::string fault = validate_mesh(mesh_);
+    if (!fault.empty()) return fault;
+    uint64_t queued = 0;
+    for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
+        const Diamond& d = mesh_[i];
+        const Queue expected = !d.is_used          ? Queue::kNone
+                               : !d.is_split       ? Queue::kSplit
+                               : d.split_kids == 0 ? Queue::kMerge
+                                                   : Queue::kNone;
+        if (ranks_[i].queue != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
+        queued += expected != Queue::kNone ? 1 : 0;
+        if (expected == Queue::kNone || eyes_.empty()) continue;
+        const Evaluation now = evaluate(bounds_[i], eyes_, scale_, Watch::kRise);
+        if (now.bucket > ranks_[i].bucket)
+            return "diamond " + std::to_string(i) + " is worse than its bucket says";
+    }
+    uint64_t linked = 0;
+    for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
+        for (Bucket b = 0; b < kBucketCount; ++b) {
+            for (uint32_t i = queue->head(b); i != BucketQueue::kNone; i = links_[i].next) {
+                if (ranks_[i].bucket != b)
+                    return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
+                if (++linked > queued) return "a queue has a loop or a stray record";
+            }
+        }
+    }
+    return linked == queued ? "" : "a queue has lost a record";
+}
+
+std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {
+    return std::make_unique<RoamFront>(grid, compute_errors(grid, options.threads), options);
+}
+
+}  // namespace terrain

@@ -1,0 +1,59 @@
+// Tessellator: the front's leaf triangles as vertices and indices of the geometry pool, in Sierpinski order.
+//
+// Every split diamond owns one vertex; its slot in the pool is its record's index, so a vertex is written once,
+// when its diamond is split, and stays. Indices are walked anew for every view, depth first through the bintree:
+// neighbours in the list share vertices, and subtrees the view cannot see are left out whole.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "data/height_grid.h"
+#include "lod/draw_list.h"
+#include "lod/view.h"
+#include "terrain/diamond_mesh.h"
+#include "terrain/diamond_metric.h"
+#include "terrain/error_grid.h"
+
+namespace terrain {
+
+/// What the walk reads; all of it belongs to the front.
+struct TessellationInput {
+    const data::HeightGrid& grid;
+    const ErrorGrid& errors;
+    const DiamondMesh& mesh;
+    std::span<const DiamondBound> bounds;
+    glm::dvec3 anchor{0.0};
+};
+
+class Tessellator {
+  public:
+    /// A diamond has been split: its vertex must be written.
+    void add_vertex(DiamondIndex index);
+
+    /// Sizes that hold `triangles` leaf triangles and `records` vertices.
+    static lod::PoolRegion need(uint64_t triangles, uint32_t records);
+    void place(const lod::PoolRegion& region);
+    const lod::PoolRegion& region() const { return region_; }
+
+    /// Call before the first emit of a frame.
+    void begin_frame() { is_first_view_ = true; }
+
+    /// Walks the mesh for one view. Allocates nothing once warm.
+    void emit(const TessellationInput& input, const lod::View& view, lod::DrawList& out);
+
+    uint64_t emitted_triangles() const { return emitted_; }
+
+  private:
+    void write_vertices(const TessellationInput& input, lod::DrawList& out);
+
+    lod::PoolRegion region_;
+    std::vector<lod::Vertex> vertices_;  ///< [record]; the pool's twin
+    std::vector<uint64_t> dirty_pages_;  ///< bit per kPageSize vertices
+    std::vector<DiamondIndex> fresh_;    ///< split since the last emit
+    std::vector<uint32_t> indices_;      ///< this frame's, all views
+    bool is_first_view_ = true;
+    uint64_t emitted_ = 0;
+};
+
+}  // namespace terrain

@@ -1,0 +1,37 @@
+// The largest distance of height samples from the plane of one bintree triangle: the kernel of ErrorGrid.
+#pragma once
+
+#include "data/height_grid.h"
+#include "terrain/diamond.h"
+
+namespace terrain {
+
+/// Corners in the domain, possibly beyond the raster.
+struct TriangleCorners {
+    GridPoint apex, left, right;  ///< left and right end the hypotenuse
+};
+
+/// Residual and slope of one triangle over a height grid.
+struct TriangleError {
+    float residual_m = 0.0f;  ///< max |sample - plane| over every covered sample, vertical; an upper bound
+    float slope = 0.0f;       ///< steepest rise of the plane, metres per metre
+};
+
+/// For a triangle that lies inside the raster: plane gradients are exact, rows are contiguous.
+TriangleError regular_triangle_error(const data::HeightGrid& grid, const TriangleCorners& corners);
+
+/// For a triangle that reaches beyond the raster: its corners are clamped first. Zero when nothing is left.
+TriangleError clamped_triangle_error(const data::HeightGrid& grid, const Domain& domain,
+                                     const TriangleCorners& corners);
+
+/// max over i in [0, count) of |samples[i] - (first + gradient * i)|. Vectorised; the scalar twin is in the test.
+float max_residual(const float* samples, int count, float first, float gradient);
+
+/// What kinds of samples a triangle covers.
+struct VoidCover {
+    bool any_valid = false;
+    bool any_void = false;
+};
+VoidCover void_cover(const data::HeightGrid& grid, const Domain& domain, const TriangleCorners& corners);
+
+}  // namespace terrain
