@@ -5,10 +5,26 @@
 
 namespace lod {
 
+namespace {
+
+struct HiLo {
+    float hi, lo;
+};
+
+/// Not inlined: g++ 12.2 at -O3 packs neighbouring axes into one vector, takes double(float(x)) for x and stores
+/// zeros for the low parts (draw_list_test).
+[[gnu::noinline]] HiLo split(double value) {
+    const float hi = static_cast<float>(value);
+    return {hi, static_cast<float>(value - static_cast<double>(hi))};
+}
+
+}  // namespace
+
 void split_hi_lo(const glm::dvec3& value, float hi[3], float lo[3]) {
     for (int axis = 0; axis < 3; ++axis) {
-        hi[axis] = static_cast<float>(value[axis]);
-        lo[axis] = static_cast<float>(value[axis] - static_cast<double>(hi[axis]));
+        const HiLo parts = split(value[axis]);
+        hi[axis] = parts.hi;
+        lo[axis] = parts.lo;
     }
 }
 
