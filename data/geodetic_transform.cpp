@@ -18,14 +18,18 @@ struct TransformDestroyer {
 };
 using TransformPtr = std::unique_ptr<OGRCoordinateTransformation, TransformDestroyer>;
 
-void apply(OGRCoordinateTransformation& transform, std::span<double> x, std::span<double> y) {
-    CHECK(x.size() == y.size());
+void apply(OGRCoordinateTransformation& transform, std::span<glm::dvec2> points) {
     const GdalMessages quiet;
-    std::vector<int> is_valid(x.size(), 0);
-    transform.Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, is_valid.data());
-    for (size_t i = 0; i < x.size(); ++i) {
-        if (!is_valid[i]) x[i] = y[i] = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> x(points.size()), y(points.size());
+    std::vector<int> is_valid(points.size(), 0);
+    for (size_t i = 0; i < points.size(); ++i) {
+        x[i] = points[i].x;
+        y[i] = points[i].y;
     }
+    transform.Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, is_valid.data());
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    for (size_t i = 0; i < points.size(); ++i)
+        points[i] = is_valid[i] ? glm::dvec2(x[i], y[i]) : glm::dvec2(kNaN);
 }
 
 }  // namespace
@@ -78,16 +82,16 @@ double GeodeticTransform::full_turn() const {
     return state_->full_turn;
 }
 
-void GeodeticTransform::degrees_from_crs(std::span<double> x, std::span<double> y) const {
+void GeodeticTransform::degrees_from_crs(std::span<glm::dvec2> points) const {
     CHECK(state_->degrees_from_crs);
     const std::lock_guard lock(state_->mutex);
-    apply(*state_->degrees_from_crs, x, y);
+    apply(*state_->degrees_from_crs, points);
 }
 
-void GeodeticTransform::crs_from_degrees(std::span<double> x, std::span<double> y) const {
+void GeodeticTransform::crs_from_degrees(std::span<glm::dvec2> points) const {
     CHECK(state_->crs_from_degrees);
     const std::lock_guard lock(state_->mutex);
-    apply(*state_->crs_from_degrees, x, y);
+    apply(*state_->crs_from_degrees, points);
 }
 
 }  // namespace data

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,10 +34,9 @@ class GeodeticTransform {
     /// A full turn of longitude in the CRS's unit, 360 for degrees; 0 unless kind() is kGeographic.
     double full_turn() const;
 
-    /// In place; x, y become degrees, or NaN where a point has no counterpart. Of equal length. About 1 us each.
-    /// CHECKs that kind() is not kNone.
-    void degrees_from_crs(std::span<double> x, std::span<double> y) const;
-    void crs_from_degrees(std::span<double> x, std::span<double> y) const;
+    /// In place; points without a counterpart become NaN. About 1 us each. CHECKs that kind() is not kNone.
+    void degrees_from_crs(std::span<glm::dvec2> points) const;
+    void crs_from_degrees(std::span<glm::dvec2> points) const;
 
   private:
     struct State;
