@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 
+#include "data/height_raster.h"
+#include "data/mosaic.h"
+#include "data/voids.h"
 #include "lod/base/check.h"
 
 namespace data {
@@ -62,6 +65,53 @@ GroundHeight ground_height(const HeightGrid& grid, double col, double row) {
                          grid.void_at(half.along_row.x, half.along_row.y) ||
                          grid.void_at(half.along_col.x, half.along_col.y);
     return {corner_m + half.u * (row_m - corner_m) + half.v * (col_m - corner_m), !is_void};
+}
+
+namespace {
+
+// Moves the raster's samples into a grid: extremes, voids, and the place in the world.
+lod::Result<HeightGrid> grid_from(HeightRaster raster, VoidPolicy policy) {
+    HeightGrid grid;
+    grid.width = raster.width;
+    grid.height = raster.height;
+    float min_m = std::numeric_limits<float>::infinity(), max_m = -min_m;
+    for (size_t i = 0; i < raster.height_m.size(); ++i) {
+        if (raster.is_void[i]) continue;
+        min_m = std::min(min_m, raster.height_m[i]);
+        max_m = std::max(max_m, raster.height_m[i]);
+    }
+    const std::string where = "terrain '" + raster.path + "': ";
+    if (min_m > max_m) return lod::Error{where + "every sample is void; expected at least one height"};
+    auto frame = GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
+    if (!frame) return lod::Error{where + frame.message()};
+    fill_voids(raster.width, raster.height, raster.height_m, raster.is_void);
+    const bool has_void = std::find(raster.is_void.begin(), raster.is_void.end(), 1) != raster.is_void.end();
+    grid.frame = *frame;
+    grid.min_m = min_m;
+    grid.max_m = max_m;
+    grid.height_m = std::move(raster.height_m);
+    if (has_void && policy == VoidPolicy::kHole) grid.is_void = std::move(raster.is_void);
+    return grid;
+}
+
+}  // namespace
+
+lod::Result<HeightGrid> read_height_grid(const std::vector<std::string>& paths,
+                                         const HeightGridOptions& options) {
+    if (paths.empty()) return lod::Error{"terrain: no source is named; expected at least one raster"};
+    std::vector<HeightRaster> rasters;
+    for (const std::string& path : paths) {
+        auto raster = read_height_raster(path, options.has_undeclared_nodata);
+        if (!raster) return raster.error();
+        if (raster->width < 2 || raster->height < 2) {
+            return lod::Error{"terrain '" + path + "': " + std::to_string(raster->width) + " x " +
+                              std::to_string(raster->height) + " samples; expected at least 2 x 2"};
+        }
+        rasters.push_back(std::move(*raster));
+    }
+    auto joined = join(std::move(rasters));
+    if (!joined) return joined.error();
+    return grid_from(std::move(*joined), options.voids);
 }
 
 }  // namespace data

@@ -59,7 +59,8 @@ struct HeightGridOptions {
 /// listed wins; aligned tiles are copied exactly, others resampled bilinearly, voids never bleeding. Gaps
 /// between tiles are void; a one-cell gap between pixel-is-area neighbours does not arise, they meet.
 ///
-/// Fails with one line (file, place, expectation) on anything unreadable, truncated, or without a valid sample.
+/// Fails with one line (file, place, expectation) on anything unreadable, truncated, smaller than 2 x 2 samples,
+/// or without a valid sample.
 lod::Result<HeightGrid> read_height_grid(const std::vector<std::string>& paths, const HeightGridOptions& options);
 
 /// A grid without CRS, for tests, benchmarks and generated relief: spacing_m between samples, sample (0, 0) at
