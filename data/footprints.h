@@ -15,19 +15,21 @@ namespace data {
 /// One building. Rings are open (the last point is not the first), without repeated points; the outer ring is
 /// counter-clockwise seen from above, courtyards clockwise.
 struct Footprint {
-    std::vector<std::vector<glm::dvec2>> rings;      ///< [0] outer, [1..] courtyards; site x, y
-    std::vector<std::array<uint32_t, 3>> triangles;  ///< roof; indices into the rings' points in order; counter-clockwise
-    double height_m = 0.0;      ///< roof above the ground, > 0
-    double min_height_m = 0.0;  ///< underside above the ground (min_height, building:min_level), >= 0, < height_m
-    int64_t id = 0;             ///< the source's id, else its ordinal
+    std::vector<std::vector<glm::dvec2>> rings;  ///< [0] outer, [1..] courtyards; site x, y
+    std::vector<std::array<uint32_t, 3>>
+        triangles;          ///< roof; indices into the rings' points in order; counter-clockwise
+    double height_m = 0.0;  ///< roof above the ground, > 0
+    double min_height_m =
+        0.0;         ///< underside above the ground (min_height, building:min_level), >= 0, < height_m
+    int64_t id = 0;  ///< the source's id, else its ordinal
 };
 
 /// What the reader met, for the report.
 struct FootprintStats {
-    uint64_t read = 0;           ///< features with a building's area
+    uint64_t read = 0;  ///< features with a building's area
     uint64_t kept = 0;
-    uint64_t repaired = 0;       ///< invalid rings made valid
-    uint64_t skipped = 0;        ///< beyond repair, or without area
+    uint64_t repaired = 0;  ///< invalid rings made valid
+    uint64_t skipped = 0;   ///< beyond repair, or without area
     uint64_t courtyards = 0;
     uint64_t with_height = 0, with_levels = 0, by_default = 0;
 };
