@@ -6,6 +6,8 @@ target_include_directories(harrier_flags INTERFACE ${CMAKE_SOURCE_DIR})
 # -ffp-contract=off: LOD decisions must be bit-identical on every machine (docs/conventions.md).
 target_compile_options(harrier_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion
                        -Wdouble-promotion -Werror -ffp-contract=off)
+# GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
+target_compile_options(harrier_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 target_compile_definitions(harrier_flags INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR)
 
 # harrier_module(NAME SOURCES... HEADERS... LINK...)
