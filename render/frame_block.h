@@ -16,7 +16,7 @@ struct FrameBlock {
     std::array<float, 4> ray{};      ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
     std::array<float, 4> sun_eye{};  ///< w: cosine of the sun disc's radius
     std::array<float, 4> up_eye{};   ///< w unused
-    std::array<float, 4> haze{};     ///< see Haze in shaders/scene.frag: extinction at the datum [octaves/m],
+    std::array<float, 4> haze{};     ///< see mean_haze in shaders/scene.vert: extinction at the datum [octaves/m],
                                      ///< thinning with height [octaves/m], thinning up to the eye [octaves],
                                      ///< density at the eye relative to the datum
     std::array<float, 4> ground_grid{};  ///< 1/grid_width, 1/grid_height, unused, unused

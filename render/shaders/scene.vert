@@ -21,7 +21,8 @@ layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 out gl_PerVertex { vec4 gl_Position; };
 out vec4 v_colour;                 // display values, premultiplied by alpha
 out vec2 v_ground_uv;
-flat out float v_ground_share;     // 1: the ground texture multiplies, 0: it does not
+out float v_haze;                  // octaves of contrast lost per metre of the line of sight, its mean
+flat out float v_untextured;       // 0: the ground texture multiplies, 1: it does not
 
 // Linear light on a white surface; a clear morning: warm sun, blue sky, a little light back from the ground.
 const vec3 kSunLight = vec3(1.00, 0.90, 0.74) * 0.86;
@@ -80,13 +81,23 @@ vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
 }
 
+// Mean extinction between the eye and a point: the exact integral through air that thins exponentially with
+// height. A smooth function of the point's height alone, so vertices are close enough to interpolate.
+float mean_haze(vec3 position_eye) {
+    float thinning = clamp(dot(position_eye, up_eye.xyz) * haze.y, -1.0 - haze.z, 60.0);
+    float density_there = exp2(-(haze.z + thinning));
+    float mean = (haze.w - density_there) / (thinning * 0.693147);
+    return haze.x * (abs(thinning) < 1e-3 ? haze.w : mean);
+}
+
 void main() {
     uint material = colour_material.a;
     if (material == kSky) {
         gl_Position = vec4(position_hi.xy, 0.0, 1.0);
         v_colour = vec4(0.0, 0.0, 0.0, 1.0);
         v_ground_uv = vec2(0.0);
-        v_ground_share = 0.0;
+        v_haze = 1e3;  // nothing but air
+        v_untextured = 1.0;
         return;
     }
     Instance instance = instances[gl_BaseInstanceARB];
@@ -95,5 +106,6 @@ void main() {
     gl_Position = vec4(eye.xy * projection.xy, projection.z, -eye.z);
     v_colour = surface_colour(material, normal_in_eye(instance), eye);
     v_ground_uv = (vec2(surface) + 0.5) * ground_grid.xy;
-    v_ground_share = material == kGround ? 1.0 : 0.0;
+    v_haze = mean_haze(eye);
+    v_untextured = material == kGround ? 0.0 : 1.0;
 }
