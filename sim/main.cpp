@@ -1,4 +1,49 @@
 // The `harrier` program: hands the command line to the commands.
-int main() {
-    return 2;
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+
+#include "sim/command_demo.h"
+#include "sim/command_fly.h"
+#include "sim/command_still.h"
+
+namespace {
+
+constexpr int kBadInput = 1, kBadUsage = 2;
+
+/// Parses, runs the one command that was named, and turns its outcome into an exit status.
+int run(CLI::App& app, const std::function<lod::Result<lod::Ok>()>& command, int count, char** words) {
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : kBadUsage;  // --help is no mistake
+    }
+    const lod::Result<lod::Ok> outcome = command();
+    if (outcome) return 0;
+    std::fprintf(stderr, "harrier: %s\n", outcome.message().c_str());
+    return kBadInput;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    CLI::App app{"Harrier: real terrain, buildings and instruments at a fixed frame rate", "harrier"};
+    app.require_subcommand(1);
+
+    sim::DemoArguments demo;
+    sim::FlyArguments fly;
+    sim::StillArguments still;
+    CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
+    CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
+    CLI::App& still_app = *app.add_subcommand("still", "one picture, converged unless a budget is given");
+    sim::add_demo(demo_app, demo);
+    sim::add_fly(fly_app, fly);
+    sim::add_still(still_app, still);
+
+    const auto command = [&]() -> lod::Result<lod::Ok> {
+        if (demo_app.parsed()) return sim::run_demo(demo);
+        if (fly_app.parsed()) return sim::run_fly(fly);
+        return sim::run_still(still);
+    };
+    return run(app, command, count, words);
 }

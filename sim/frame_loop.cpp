@@ -1,0 +1,132 @@
+#include "sim/frame_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "sim/budget_controller.h"
+#include "sim/pilot.h"
+#include "sim/world_clock.h"
+
+namespace sim {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr int kWarmUpFrames = 8;
+constexpr double kRefineShare = 0.3;        // refinement never gets more of the period
+constexpr double kLeastRefineShare = 0.02;  // nor less: a crowded frame must still be able to coarsen
+constexpr double kMarginShare = 0.05;
+constexpr double kTriangleShare = 0.75;  // what all but refinement may fill
+
+/// What the loop carries from frame to frame.
+struct Loop {
+    const LoopOptions& options;
+    WorldClock clock;
+    BudgetController controller;
+    double rest_ms = 0.0;  ///< expected time of a frame without refinement
+    Pilot pilot;
+
+    double period_ms() const { return 1e3 / options.rate_hz; }
+};
+
+Loop make_loop(const LoopOptions& options) {
+    Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}};
+    loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
+    loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
+    loop.controller.target.min_triangles = std::min<uint64_t>(2000, loop.controller.target.max_triangles);
+    loop.rest_ms = 0.5 * loop.period_ms();
+    return loop;
+}
+
+lod::Deadline time_limit(double allowance_ms) {
+    const auto end = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
+                                              std::chrono::duration<double, std::milli>(allowance_ms));
+    return [end](uint64_t) { return SteadyClock::now() >= end; };
+}
+
+Allowance allowance_of(const Loop& loop, int64_t frame) {
+    Allowance allowance;
+    allowance.frame = frame;
+    allowance.budget.tolerance_px = loop.options.tolerance_px;
+    if (loop.options.operations) {
+        allowance.budget.max_triangles = loop.options.triangles.value_or(kDeterministicTriangles);
+        allowance.deadline = lod::operation_limit(*loop.options.operations);
+        return allowance;
+    }
+    allowance.budget.max_triangles = loop.options.triangles.value_or(loop.controller.triangles);
+    const double period = loop.period_ms();
+    const double left_ms = period * (1.0 - kMarginShare) - loop.rest_ms;
+    allowance.deadline = time_limit(std::clamp(left_ms, kLeastRefineShare * period, kRefineShare * period));
+    return allowance;
+}
+
+void learn(Loop& loop, const FrameRecord& record) {
+    const double rest_ms = record.total_ms - record.refine_ms;
+    loop.rest_ms +=
+        (rest_ms > loop.rest_ms ? 0.5 : 0.1) * (std::min(rest_ms, 2.0 * loop.period_ms()) - loop.rest_ms);
+    observe(loop.controller, record.cut_triangles, rest_ms);
+}
+
+lod::Result<lod::Ok> warm_up(Loop& loop, Stage& stage) {
+    const EyeState state = pose_at(stage.world->eyepoint, loop.options.begin_s);
+    for (int i = 0; i < kWarmUpFrames; ++i) {
+        Allowance allowance = allowance_of(loop, 0);
+        allowance.deadline = time_limit(2.0 * loop.period_ms());
+        auto record = make_frame(stage, {state, {}, loop.options.begin_s}, allowance);
+        if (!record) return record.error();
+        if (i >= kWarmUpFrames / 2) learn(loop, *record);  // the first ones pay for uploads and caches
+    }
+    return lod::Ok{};
+}
+
+/// The pose of simulation frame `frame`: the pilot's when one has taken over.
+EyeState next_state(Loop& loop, Stage& stage, double time_s) {
+    const EyeState path_state = pose_at(stage.world->eyepoint, time_s);
+    steer(loop.pilot, stage.renderer.poll_input(), *stage.world, path_state, 1.0 / loop.options.rate_hz);
+    return loop.pilot.is_free ? loop.pilot.state : path_state;
+}
+
+}  // namespace
+
+uint64_t reserve_for(const LoopOptions& options) {
+    constexpr uint64_t kForcedSplits = 4096;  // one refinement may overshoot by the splits it forces
+    const uint64_t limit = options.operations ? kDeterministicTriangles : kMostTriangles;
+    return options.triangles.value_or(limit) + kForcedSplits;
+}
+
+lod::Result<std::vector<FrameRecord>> run_loop(Stage& stage, const LoopOptions& options,
+                                               const AfterFrame& after) {
+    Loop loop = make_loop(options);
+    const bool is_real_time = !options.operations;
+    if (is_real_time) {
+        if (auto warm = warm_up(loop, stage); !warm) return warm.error();
+    }
+    std::vector<FrameRecord> records;
+    records.reserve(static_cast<size_t>(std::min<int64_t>(options.frames, 1'000'000)));
+    SteadyClock::time_point begin = SteadyClock::now();
+    int64_t step = 0;  // stands still while paused
+    for (int64_t frame = 0; frame < options.frames && !loop.pilot.is_closing; ++frame) {
+        if (is_real_time) {
+            std::this_thread::sleep_until(begin +
+                                          std::chrono::nanoseconds(since_begin_ns(loop.clock, frame)));
+        }
+        const double now_s = time_s(loop.clock, step);
+        const EyeState state = next_state(loop, stage, now_s);
+        auto record = make_frame(stage, {state, {}, now_s}, allowance_of(loop, frame));
+        if (!record) return record.error();
+        record->missed = record->total_ms > loop.period_ms();
+        if (is_real_time) learn(loop, *record);
+        records.push_back(*record);
+        if (!loop.pilot.is_paused) ++step;
+
+        const SteadyClock::time_point ended = SteadyClock::now();
+        const auto goes_on = after(*record, stage);
+        if (!goes_on) return goes_on.error();
+        if (!*goes_on) break;
+        begin += SteadyClock::now() - ended;  // what happens between frames is not theirs
+    }
+    return records;
+}
+
+}  // namespace sim

@@ -1,0 +1,214 @@
+#include "sim/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lod/base/hash.h"
+#include "sim/progress.h"
+
+namespace sim {
+namespace {
+
+constexpr double kVisibility_m = 70000.0;
+
+/// Shares out the pool; the regions follow each other.
+render::PoolCapacity share_out(Stage& stage) {
+    render::PoolCapacity pool;
+    pool.commands = std::max<uint32_t>(1024, 2 * stage.world->item_count + 64);
+    stage.regions.clear();
+    for (lod::Front* front : stage.fronts) {
+        lod::PoolRegion region = front->pool_need();
+        region.first_vertex = pool.vertices;
+        region.first_index = pool.indices;
+        pool.vertices += region.vertex_capacity;
+        pool.indices += region.index_capacity;
+        front->place(region);
+        stage.regions.push_back(region);
+    }
+    return pool;
+}
+
+bool has_outgrown(const Stage& stage) {
+    for (size_t i = 0; i < stage.fronts.size(); ++i) {
+        const lod::PoolRegion need = stage.fronts[i]->pool_need();
+        const lod::PoolRegion& have = stage.regions[i];
+        if (need.vertex_capacity > have.vertex_capacity || need.index_capacity > have.index_capacity)
+            return true;
+    }
+    return false;
+}
+
+/// Rotation from the craft's eye frame to the head's.
+glm::dmat3 head_from_craft(const HeadPose& head) {
+    const double sy = std::sin(head.yaw_rad), cy = std::cos(head.yaw_rad);
+    const double sp = std::sin(head.pitch_rad), cp = std::cos(head.pitch_rad);
+    const glm::dvec3 ahead(sy * cp, sp, -cy * cp), right(cy, 0.0, sy);
+    return glm::transpose(glm::dmat3(right, glm::cross(right, ahead), -ahead));
+}
+
+/// Needles to their signals, instruments to where the head sees them.
+void move_instruments(World& world, const Shot& shot) {
+    if (!world.instruments) return;
+    move_bodies(world.cockpit.moving, signals_of(world, shot.state, shot.time_s), world.cockpit.poses);
+    const glm::dmat3 turn = head_from_craft(shot.head);
+    for (size_t body = 0; body < world.cockpit.poses.size(); ++body) {
+        lod::BodyPose pose = world.cockpit.poses[body];
+        pose.reference_from_body = turn * pose.reference_from_body;
+        pose.origin = turn * (pose.origin - shot.head.position_m);
+        world.instruments->set_pose(static_cast<uint32_t>(body), pose);
+    }
+}
+
+render::Atmosphere atmosphere_of(const World& world, const Shot& shot, const glm::dvec3& up_world) {
+    render::Atmosphere air;
+    air.sun_world = world.sun_world;
+    air.up_world = up_world;
+    air.visibility_m = kVisibility_m;
+    air.eye_height_m =
+        shot.state.site.height_m - (world.ground ? static_cast<double>(world.ground->min_m) : 0.0);
+    return air;
+}
+
+uint64_t adaptive_triangles(const World& world) {
+    return world.terrain ? world.terrain->triangles() : 0;
+}
+
+/// The scheduler counts all fronts; what cannot adapt is given to it on top.
+lod::Budget with_rigid(const Stage& stage, lod::Budget budget) {
+    uint64_t all = 0;
+    for (const lod::Front* front : stage.fronts)
+        all += front->triangles();
+    const uint64_t rigid = all - adaptive_triangles(*stage.world);
+    if (budget.max_triangles < UINT64_MAX - rigid) budget.max_triangles += rigid;
+    return budget;
+}
+
+lod::OperationCounts all_operations(const Stage& stage) {
+    lod::OperationCounts sum;
+    for (const lod::Front* front : stage.fronts) {
+        const lod::OperationCounts counts = front->operations();
+        for (size_t i = 0; i < sum.count.size(); ++i)
+            sum.count[i] += counts.count[i];
+    }
+    return sum;
+}
+
+void record_fronts(Stage& stage, FrameRecord& record) {
+    const World& world = *stage.world;
+    const std::array<lod::Front*, kModuleCount> modules = {world.terrain.get(), world.objects.get(),
+                                                           world.instruments.get()};
+    for (size_t i = 0; i < kModuleCount; ++i) {
+        if (!modules[i]) continue;
+        record.triangles[i] = modules[i]->emitted_triangles();
+        record.error_px[i] = modules[i]->error_px();
+        record.front_hash = lod::hash_combine(record.front_hash, modules[i]->hash());
+    }
+    const lod::OperationCounts now = all_operations(stage);
+    for (size_t i = 0; i < now.count.size(); ++i) {
+        record.operations.count[i] = now.count[i] - stage.operations_before.count[i];
+    }
+    stage.operations_before = now;
+    record.cut_triangles = adaptive_triangles(world);
+    record.draw_calls = stage.renderer.stats().draw_calls;
+    record.commands = stage.renderer.stats().commands;
+}
+
+/// Fills the draw list; makes the pool grow first when a front outgrew its region.
+lod::Result<lod::Ok> emit_all(Stage& stage, const lod::View& view) {
+    if (has_outgrown(stage)) {
+        if (auto grown = stage.renderer.resize_pool(share_out(stage)); !grown) return grown.error();
+    }
+    stage.list.clear();
+    for (lod::Front* front : stage.fronts)
+        front->emit(view, stage.list);
+    return lod::Ok{};
+}
+
+}  // namespace
+
+lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, bool window) {
+    render::RendererOptions options;
+    options.width_px = optics.width_px;
+    options.height_px = optics.height_px;
+    options.window = window;
+    options.window_title = "Harrier: " + world->scene.name;
+    options.pool = {1, 3, 16};  // until the fronts are placed
+    auto renderer = render::Renderer::create(options);
+    if (!renderer) return renderer.error();
+    Stage stage{std::move(world), std::move(*renderer), optics, {}, {}, {}, {}};
+    stage.fronts = fronts_of(*stage.world);
+    if (auto pool = stage.renderer.resize_pool(share_out(stage)); !pool) return pool.error();
+    stage.operations_before = all_operations(stage);
+    const data::Image& colours = stage.world->ground_colours;
+    if (colours.width > 0) {
+        const data::HeightGrid& ground = *stage.world->ground;
+        auto set = stage.renderer.set_ground_texture(colours.width, colours.height, colours.rgba,
+                                                     ground.width, ground.height);
+        if (!set) return set.error();
+    }
+    return stage;
+}
+
+lod::View view_of(const World& world, const Optics& optics, const EyeState& state, const HeadPose& head) {
+    lod::View view;
+    view.fov_y_rad = optics.fov_y_rad;
+    view.width_px = optics.width_px;
+    view.height_px = optics.height_px;
+    view.near_m = optics.near_m;
+    const glm::dvec3 craft_world = world.frame.world_from_site(state.site);
+    const glm::dmat3 craft_from_world = lod::eye_from_attitude(
+        world.frame.world_from_enu(craft_world), state.heading_rad, state.pitch_rad, state.roll_rad);
+    view.eye_world = craft_world + glm::transpose(craft_from_world) * head.position_m;
+    view.eye_from_world = head_from_craft(head) * craft_from_world;
+    return view;
+}
+
+EyeState state_looking(const World& world, const glm::dvec3& eye_world, const glm::dvec3& target_world) {
+    EyeState state;
+    state.site = world.frame.site_from_world(eye_world);
+    const glm::dvec3 way = glm::transpose(world.frame.world_from_enu(eye_world)) * (target_world - eye_world);
+    const double level = std::hypot(way.x, way.y);
+    state.heading_rad = level > 0.0 ? std::atan2(way.x, way.y) : 0.0;
+    state.pitch_rad = std::atan2(way.z, level);
+    return state;
+}
+
+lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowance& allowance) {
+    World& world = *stage.world;
+    FrameRecord record;
+    record.frame = allowance.frame;
+    record.time_s = shot.time_s;
+    const Stopwatch total;
+
+    const lod::View view = view_of(world, stage.optics, shot.state, shot.head);
+    const glm::dvec3 up_world = world.frame.world_from_enu(view.eye_world)[2];
+    move_instruments(world, shot);
+    for (lod::Front* front : stage.fronts)
+        front->begin_frame({&view, 1}, shot.time_s);
+    record.update_ms = total.ms();
+
+    const Stopwatch refine;
+    record.converged =
+        lod::schedule(stage.fronts, with_rigid(stage, allowance.budget), allowance.deadline).converged;
+    record.refine_ms = refine.ms();
+
+    const Stopwatch emit;
+    if (world.objects) {
+        world.objects->set_up_world(up_world);
+        world.objects->set_ground_error_px(world.terrain ? world.terrain->error_px() : 0.0);
+    }
+    if (auto emitted = emit_all(stage, view); !emitted) return emitted.error();
+    record.emit_ms = emit.ms();
+
+    const Stopwatch submit;
+    stage.renderer.draw(view, stage.list, atmosphere_of(world, shot, up_world));
+    record.submit_ms = submit.ms();
+    const Stopwatch render;
+    stage.renderer.finish();
+    record.render_ms = render.ms();
+    record.total_ms = total.ms();
+    record_fronts(stage, record);
+    return record;
+}
+
+}  // namespace sim

@@ -1,0 +1,214 @@
+#include "sim/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "data/polygon_mesh.h"
+#include "objects/buildings.h"
+#include "sim/ground_texture.h"
+#include "sim/model_parts.h"
+#include "sim/progress.h"
+#include "sim/sunlight.h"
+#include "terrain/roam_front.h"
+
+namespace sim {
+namespace {
+
+constexpr int kMaxTexture_px = 8192;
+
+lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
+    const TerrainSource& source = *world.scene.terrain;
+    const Stopwatch watch;
+    data::HeightGridOptions reading;
+    reading.voids = source.voids;
+    lod::Result<data::HeightGrid> grid = data::read_height_grid(source.sources, reading);
+    if (!grid) return grid.error();
+    world.ground = std::make_unique<data::HeightGrid>(std::move(*grid));
+    world.frame = world.ground->frame.world();
+    const double reading_s = watch.seconds();
+
+    const Stopwatch errors;
+    terrain::RoamOptions roam;
+    roam.tolerance_px = options.tolerance_px;
+    roam.threads = options.threads;
+    const auto side =
+        std::bit_ceil(static_cast<uint64_t>(std::max(world.ground->width, world.ground->height)));
+    roam.reserve_triangles = std::min(options.reserve_triangles, 2 * side * side);  // it never has more
+    world.terrain = terrain::make_roam_front(*world.ground, roam);
+    const data::HeightGrid& ground = *world.ground;
+    const auto voids = std::count(ground.is_void.begin(), ground.is_void.end(), uint8_t{1});
+    say(fmt::format(
+        "terrain: {} x {} samples, {:.0f} to {:.0f} m, {} voids, read in {:.1f} s, errors in {:.1f} s",
+        ground.width, ground.height, ground.min_m, ground.max_m, voids, reading_s, errors.seconds()));
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
+    const Stopwatch watch;
+    data::Image imagery;
+    const TerrainSource& source = *world.scene.terrain;
+    if (!source.imagery.empty()) {
+        lod::Result<data::Image> image = data::read_imagery(source.imagery, *world.ground, kMaxTexture_px);
+        if (!image) return image.error();
+        imagery = std::move(*image);
+    }
+    GroundTextureOptions painting;
+    painting.max_px = kMaxTexture_px;
+    painting.threads = options.threads;
+    world.ground_colours = paint_ground(*world.ground, imagery, painting);
+    say(fmt::format("ground: {} x {} texels painted in {:.1f} s", world.ground_colours.width,
+                    world.ground_colours.height, watch.seconds()));
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, ModelParts& objects) {
+    const Stopwatch watch;
+    data::FootprintOptions reading;
+    reading.default_height_m = source.default_height_m;
+    lod::Result<data::Footprints> footprints = data::read_footprints(source.source, world.frame, reading);
+    if (!footprints) return footprints.error();
+    objects::Buildings built = objects::build_buildings(*footprints, world.ground.get(), world.frame, {});
+    for (lod::RigidPart& part : built.parts)
+        objects.parts.push_back(std::move(part));
+    for (const objects::BuildingSite& site : built.sites)
+        world.buildings.push_back(site.base_world);
+    const data::FootprintStats& stats = footprints->stats;
+    say(fmt::format(
+        "buildings: {} of {} built ({} repaired, {} skipped, {} off the terrain; {} heights by default) "
+        "in {:.1f} s",
+        built.sites.size(), stats.read, stats.repaired, stats.skipped, built.off_terrain, stats.by_default,
+        watch.seconds()));
+    return lod::Ok{};
+}
+
+/// Reads a model and says what it lost on the way.
+lod::Result<data::PolygonMesh> read_model(World& world, const std::string& path) {
+    data::PolygonMeshStats stats;
+    lod::Result<data::PolygonMesh> mesh = data::read_polygon_mesh(path, &stats);
+    if (mesh && stats.missing_textures > 0) {
+        world.notes.push_back(fmt::format("{}: {} textures are missing, drawn in the material's colour", path,
+                                          stats.missing_textures));
+    }
+    if (mesh) say(fmt::format("model: {}, {} triangles", path, mesh->triangle_count()));
+    return mesh;
+}
+
+lod::Result<lod::Ok> add_model(World& world, const ModelSource& source, ModelParts& objects) {
+    lod::Result<data::PolygonMesh> mesh = read_model(world, source.source);
+    if (!mesh) return mesh.error();
+    data::SitePoint site{source.site.x, source.site.y, 0.0};
+    site.height_m = ground_height_m(world, site) + source.height_m;
+    const lod::BodyPose pose = placed_pose(world.frame, site, source.heading_rad, source.scale);
+    lod::Result<ModelParts> parts = make_model_parts(*mesh, pose, {});
+    if (!parts) return lod::Error{source.source + ": " + parts.message()};
+    append_model(*parts, objects);
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> add_instrument(World& world, const InstrumentSource& source, ModelParts& panel) {
+    lod::Result<data::PolygonMesh> mesh = read_model(world, source.source);
+    if (!mesh) return mesh.error();
+    const lod::BodyPose pose = cockpit_pose(source.position_eye_m, source.heading_rad, source.scale);
+    lod::Result<ModelParts> parts = make_model_parts(*mesh, pose, source.drives);
+    if (!parts) return lod::Error{source.source + ": " + parts.message()};
+    append_model(*parts, panel);
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> build_objects(World& world) {
+    const Scene& scene = world.scene;
+    if (scene.buildings.empty() && scene.models.empty()) return lod::Ok{};
+    ModelParts objects;
+    objects.bodies.emplace_back();  // the world itself: buildings stand in it
+    for (const BuildingSource& source : scene.buildings) {
+        if (auto added = add_buildings(world, source, objects); !added) return added.error();
+    }
+    for (const ModelSource& source : scene.models) {
+        if (auto added = add_model(world, source, objects); !added) return added.error();
+    }
+    world.item_count += static_cast<uint32_t>(objects.parts.size());
+    world.objects = std::make_unique<lod::RigidFront>(lod::Module::kObjects, std::move(objects.parts),
+                                                      std::move(objects.bodies));
+    return lod::Ok{};
+}
+
+lod::Result<lod::Ok> build_instruments(World& world) {
+    if (world.scene.instruments.empty()) return lod::Ok{};
+    ModelParts panel;
+    for (const InstrumentSource& source : world.scene.instruments) {
+        if (auto added = add_instrument(world, source, panel); !added) return added.error();
+    }
+    world.item_count += static_cast<uint32_t>(panel.parts.size());
+    world.cockpit = {std::move(panel.moving), panel.bodies};
+    world.instruments = std::make_unique<lod::RigidFront>(lod::Module::kInstruments, std::move(panel.parts),
+                                                          std::move(panel.bodies));
+    return lod::Ok{};
+}
+
+/// The place whose east, north and up the sun's direction is given in.
+glm::dvec3 middle_of(const World& world) {
+    if (!world.ground) return world.frame.world_from_site(world.scene.start.site);
+    const data::HeightGrid& ground = *world.ground;
+    return world.frame.world_from_site(
+        ground.frame.site_from_grid((ground.width - 1) / 2.0, (ground.height - 1) / 2.0));
+}
+
+}  // namespace
+
+lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldOptions& options) {
+    auto world = std::make_unique<World>();
+    world->scene = scene;
+    if (!scene.objects.empty()) {
+        return lod::Error{
+            fmt::format("{}:{}: [[objects]] {} is a cluster file, expected a scene without: buildings and "
+                        "models are read",
+                        scene.file, scene.objects.front().line, scene.objects.front().source)};
+    }
+    if (scene.terrain) {
+        if (auto built = build_terrain(*world, options); !built) return built.error();
+    }
+    // Before the slow parts: a path that makes no sense is told at once.
+    auto eyepoint =
+        make_eyepoint(world->scene, options.trajectory, world->frame, world->ground.get(), world->notes);
+    if (!eyepoint) return eyepoint.error();
+    world->eyepoint = std::move(*eyepoint);
+    if (auto built = build_objects(*world); !built) return built.error();
+    if (auto built = build_instruments(*world); !built) return built.error();
+    if (scene.terrain && options.has_picture) {
+        if (auto painted = paint_terrain(*world, options); !painted) return painted.error();
+    }
+    world->sun_world = world->frame.world_from_enu(middle_of(*world)) * kSunEnu;
+    for (const std::string& note : world->notes)
+        say("note: " + note);
+    return world;
+}
+
+std::vector<lod::Front*> fronts_of(const World& world) {
+    std::vector<lod::Front*> fronts;
+    if (world.terrain) fronts.push_back(world.terrain.get());
+    if (world.objects) fronts.push_back(world.objects.get());
+    if (world.instruments) fronts.push_back(world.instruments.get());
+    return fronts;
+}
+
+double ground_height_m(const World& world, const data::SitePoint& site) {
+    if (!world.ground) return 0.0;
+    const glm::dvec2 grid = world.ground->frame.grid_from_site(site);
+    const data::GroundHeight ground = data::ground_height(*world.ground, grid.x, grid.y);
+    return ground.valid ? ground.height_m : 0.0;
+}
+
+Signals signals_of(const World& world, const EyeState& state, double time_s) {
+    constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+    double heading_deg = std::fmod(state.heading_rad * kDegPerRad, 360.0);
+    if (heading_deg < 0.0) heading_deg += 360.0;
+    return {{state.site.height_m, state.site.height_m - ground_height_m(world, state.site), state.speed_mps,
+             heading_deg, state.pitch_rad * kDegPerRad, state.roll_rad * kDegPerRad, state.vertical_speed_mps,
+             time_s}};
+}
+
+}  // namespace sim

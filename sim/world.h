@@ -1,0 +1,67 @@
+// World: everything a scene file names, read and ready to be drawn. A module the scene does not name has no front,
+// no buffer and no cost.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/footprints.h"
+#include "data/height_grid.h"
+#include "data/image.h"
+#include "lod/base/result.h"
+#include "lod/rigid_front.h"
+#include "render/renderer.h"
+#include "sim/eyepoint.h"
+#include "sim/model_pose.h"
+#include "sim/scene_file.h"
+#include "sim/signals.h"
+
+namespace sim {
+
+struct WorldOptions {
+    double tolerance_px = 1.0;
+    unsigned threads = 2;  ///< for the error computation and the ground's colours; changes no result
+    uint64_t reserve_triangles = 0;  ///< the terrain front allocates nothing below this many
+    bool has_picture = true;         ///< false: nobody looks, the ground is not painted
+    std::string trajectory;          ///< replaces the scene's path; empty: none
+};
+
+/// Instruments as they hang in the cockpit.
+struct Cockpit {
+    std::vector<MovingBody> moving;
+    std::vector<lod::BodyPose>
+        poses;  ///< [bodies], in the cockpit's frame, needles where the last signals put them
+};
+
+/// Move-only; fronts refer to the ground, which keeps its address.
+struct World {
+    Scene scene;
+    data::WorldFrame frame;
+    std::unique_ptr<data::HeightGrid> ground;  ///< null without [terrain], as all below
+    std::unique_ptr<lod::Front> terrain;
+    std::unique_ptr<lod::RigidFront> objects;
+    std::unique_ptr<lod::RigidFront> instruments;
+    Cockpit cockpit;
+    Eyepoint eyepoint;
+    data::Image ground_colours;  ///< empty without terrain or picture; not needed once a renderer has them
+    glm::dvec3 sun_world{0.0, 0.0, 1.0};
+    std::vector<glm::dvec3> buildings;  ///< one corner of each building's base, world
+    uint32_t item_count = 0;            ///< draw items of objects and instruments, at most
+    std::vector<std::string> notes;     ///< liberties taken while reading
+};
+
+/// Reads and builds a scene; says on stderr what each long step found.
+/// Fails on the first source that cannot be read, naming it.
+lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldOptions& options);
+
+/// The fronts there are, in the order of lod::Module.
+std::vector<lod::Front*> fronts_of(const World& world);
+
+/// What needles show at a state of flight.
+Signals signals_of(const World& world, const EyeState& state, double time_s);
+
+/// Height of the source ground at a site; 0 where there is none.
+double ground_height_m(const World& world, const data::SitePoint& site);
+
+}  // namespace sim
