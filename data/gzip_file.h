@@ -1,0 +1,18 @@
+// Files of bytes: whole, their beginning, or unpacked from gzip.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lod/base/result.h"
+
+namespace data {
+
+/// At most `max_bytes` from the beginning of a file.
+lod::Result<std::vector<uint8_t>> read_file_head(const std::string& path, size_t max_bytes);
+
+/// The content of a gzip file. Fails when it is damaged, cut short, or larger than `max_bytes`.
+lod::Result<std::vector<uint8_t>> read_gzip_file(const std::string& path, size_t max_bytes);
+
+}  // namespace data

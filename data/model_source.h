@@ -1,0 +1,25 @@
+// A model file as Assimp understands it: unpacked, refused where it is cut short, faces as the file has them.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <memory>
+#include <string>
+
+#include "lod/base/result.h"
+
+namespace data {
+
+/// An open model. The scene belongs to the importer.
+struct ModelSource {
+    std::unique_ptr<Assimp::Importer> importer;
+    const aiScene* scene = nullptr;  ///< no post-processing yet; indices in range, coordinates finite
+    std::string extension;           ///< lower case, without dot and without .gz
+};
+
+/// Opens `path`; `.gz` is unpacked in memory (4 GiB at the most), then neighbouring files are not found.
+/// Fails on unreadable, truncated or inconsistent files and on coordinates that are not finite.
+lod::Result<ModelSource> open_model(const std::string& path);
+
+}  // namespace data
