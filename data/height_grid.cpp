@@ -69,6 +69,23 @@ GroundHeight ground_height(const HeightGrid& grid, double col, double row) {
 
 namespace {
 
+// Columns run to the left of rows seen from above: the CRS counts to the west, or its axes are swapped.
+bool is_mirrored(const HeightRaster& raster, const GroundFrame& frame) {
+    const double col = (raster.width - 1) * 0.5, row = (raster.height - 1) * 0.5;
+    const glm::dvec3 middle = frame.world_from_grid(col, row, 0.0);
+    const glm::dvec3 along_row = frame.world_from_grid(col + 0.5, row, 0.0) - middle;
+    const glm::dvec3 along_col = frame.world_from_grid(col, row + 0.5, 0.0) - middle;
+    const glm::dvec3 up = frame.world_from_grid(col, row, 1.0) - middle;
+    return glm::dot(glm::cross(along_row, along_col), up) > 0.0;
+}
+
+lod::Result<GroundFrame> frame_of(HeightRaster& raster) {
+    auto frame = GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
+    if (!frame || !is_mirrored(raster, *frame)) return frame;
+    mirror_columns(raster);
+    return GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
+}
+
 // Moves the raster's samples into a grid: extremes, voids, and the place in the world.
 lod::Result<HeightGrid> grid_from(HeightRaster raster, VoidPolicy policy) {
     HeightGrid grid;
@@ -82,7 +99,7 @@ lod::Result<HeightGrid> grid_from(HeightRaster raster, VoidPolicy policy) {
     }
     const std::string where = "terrain '" + raster.path + "': ";
     if (min_m > max_m) return lod::Error{where + "every sample is void; expected at least one height"};
-    auto frame = GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
+    const auto frame = frame_of(raster);
     if (!frame) return lod::Error{where + frame.message()};
     fill_voids(raster.width, raster.height, raster.height_m, raster.is_void);
     const bool has_void = std::find(raster.is_void.begin(), raster.is_void.end(), 1) != raster.is_void.end();

@@ -124,13 +124,13 @@ std::vector<T> transposed(const std::vector<T>& in, int width, int height) {
 }
 
 template <typename T>
-void mirror_columns(std::vector<T>& values, int width) {
+void reverse_rows(std::vector<T>& values, int width) {
     for (auto row = values.begin(); row != values.end(); row += width)
         std::reverse(row, row + width);
 }
 
 template <typename T>
-void mirror_rows(std::vector<T>& values, int width, int height) {
+void swap_rows(std::vector<T>& values, int width, int height) {
     for (int top = 0, bottom = height - 1; top < bottom; ++top, --bottom) {
         const auto first = values.begin() + std::ptrdiff_t{top} * width;
         std::swap_ranges(first, first + width, values.begin() + std::ptrdiff_t{bottom} * width);
@@ -148,14 +148,18 @@ void orient(HeightRaster& raster) {
         std::swap(g[1], g[2]);
         std::swap(g[4], g[5]);
     }
-    if (g[1] < 0.0) {
-        on_both([&](auto& values) { mirror_columns(values, raster.width); });
-        g = {g[0] + g[1] * raster.width, -g[1], g[2], g[3] + g[4] * raster.width, -g[4], g[5]};
-    }
+    if (g[1] < 0.0) mirror_columns(raster);
     if (g[5] > 0.0) {
-        on_both([&](auto& values) { mirror_rows(values, raster.width, raster.height); });
+        on_both([&](auto& values) { swap_rows(values, raster.width, raster.height); });
         g = {g[0] + g[2] * raster.height, g[1], -g[2], g[3] + g[5] * raster.height, g[4], -g[5]};
     }
+}
+
+void mirror_columns(HeightRaster& raster) {
+    reverse_rows(raster.height_m, raster.width);
+    reverse_rows(raster.is_void, raster.width);
+    auto& g = raster.geo_transform;
+    g = {g[0] + g[1] * raster.width, -g[1], g[2], g[3] + g[4] * raster.width, -g[4], g[5]};
 }
 
 lod::Result<HeightRaster> read_height_raster(const std::string& path, bool has_undeclared_nodata) {

@@ -32,4 +32,7 @@ lod::Result<HeightRaster> read_height_raster(const std::string& path, bool has_u
 /// raster's rotation allows. Samples keep their places.
 void orient(HeightRaster& raster);
 
+/// Reverses the order of columns. Samples keep their places.
+void mirror_columns(HeightRaster& raster);
+
 }  // namespace data
