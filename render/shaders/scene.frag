@@ -27,7 +27,8 @@ vec3 air(float height, float towards_sun) {
     float sun = max(towards_sun, 0.0);
     float sun_2 = sun * sun, sun_4 = sun_2 * sun_2, sun_8 = sun_4 * sun_4;
     float sun_16 = sun_8 * sun_8, sun_64 = sun_16 * sun_16 * sun_16 * sun_16;
-    return mix(colour, kSunGlow, 0.28 * sun_8 * low_4 + 0.42 * sun_64);
+    float sun_256 = sun_64 * sun_64 * sun_64 * sun_64;
+    return mix(colour, kSunGlow, 0.22 * sun_8 * low_4 + 0.20 * sun_64 + 0.42 * sun_256 * sun_256 * sun_256);
 }
 
 void main() {
