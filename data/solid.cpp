@@ -85,6 +85,18 @@ RingNormals ring_normals(const Polyline& ring) {
     return normals;
 }
 
+/// Edges shorter than the bevel would turn round when moved inwards: their ends meet in the middle instead.
+void unfold(const Polyline& ring, Polyline& inset) {
+    constexpr int kPasses = 4;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        for (size_t i = 0; i < ring.size(); ++i) {
+            const size_t next = (i + 1) % ring.size();
+            if (glm::dot(inset[next] - inset[i], ring[next] - ring[i]) >= 0.0) continue;
+            inset[i] = inset[next] = (inset[i] + inset[next]) / 2.0;
+        }
+    }
+}
+
 /// The side of an extrusion along one ring, and its bevel; returns the ring of the upper face.
 Polyline append_side(const Polyline& ring, const Extrusion& shape, const SolidTarget& target) {
     const RingNormals normals = ring_normals(ring);
@@ -92,6 +104,7 @@ Polyline append_side(const Polyline& ring, const Extrusion& shape, const SolidTa
     Polyline inset(ring.size());
     for (size_t i = 0; i < ring.size(); ++i)
         inset[i] = ring[i] - shape.bevel * normals.mitre[i];
+    unfold(ring, inset);
     for (size_t i = 0; i < ring.size(); ++i) {
         const size_t next = (i + 1) % ring.size();
         const glm::dvec2 n0 = normals.begin[i], n1 = normals.end[i];
