@@ -1,8 +1,7 @@
 // BucketQueue: records ordered by a coarse logarithm of their priority; push, remove and both ends in O(1).
 //
 // Eight buckets an octave, taken straight from a float's bits, so an edge is exact and every machine agrees on
-// the bucket. Ties inside a bucket go to the latest comer. Two kinds of queue share one array of links, since no
-// record is in both.
+// the bucket. Ties inside a bucket go to the latest comer. A record has one link, so it is in one queue at most.
 #pragma once
 
 #include <array>
@@ -16,8 +15,8 @@
 namespace terrain {
 
 /// Bucket numbers: 0 not in view; 1 in view, error exactly 0; 2 … 255 rising error.
-using Bucket = uint16_t;
-inline constexpr Bucket kBucketCount = 256;
+using Bucket = uint8_t;
+inline constexpr uint32_t kBucketCount = 256;
 inline constexpr Bucket kHiddenBucket = 0;
 inline constexpr Bucket kFlatBucket = 1;
 inline constexpr Bucket kFirstErrorBucket = 2;
@@ -55,7 +54,7 @@ struct BucketLink {
     uint32_t next = 0xffffffffu;
 };
 
-/// Heads of the buckets; the links and each record's bucket live with the owner.
+/// Heads of the buckets; the records, with their links, live with the owner.
 class BucketQueue {
   public:
     static constexpr uint32_t kNone = 0xffffffffu;
@@ -65,19 +64,22 @@ class BucketQueue {
     bool is_empty() const { return (occupied_[0] | occupied_[1] | occupied_[2] | occupied_[3]) == 0; }
     uint32_t head(Bucket bucket) const { return head_[bucket]; }
 
-    void push(std::vector<BucketLink>& links, uint32_t record, Bucket bucket) {
+    /// @param records  [record] with a member `link`
+    template <typename Record>
+    void push(std::vector<Record>& records, uint32_t record, Bucket bucket) {
         const uint32_t old = head_[bucket];
-        links[record] = {kNone, old};
-        if (old != kNone) links[old].previous = record;
+        records[record].link = {kNone, old};
+        if (old != kNone) records[old].link.previous = record;
         head_[bucket] = record;
         occupied_[bucket >> 6] |= uint64_t{1} << (bucket & 63);
     }
 
-    void remove(std::vector<BucketLink>& links, uint32_t record, Bucket bucket) {
-        const BucketLink link = links[record];
-        if (link.next != kNone) links[link.next].previous = link.previous;
+    template <typename Record>
+    void remove(std::vector<Record>& records, uint32_t record, Bucket bucket) {
+        const BucketLink link = records[record].link;
+        if (link.next != kNone) records[link.next].link.previous = link.previous;
         if (link.previous != kNone) {
-            links[link.previous].next = link.next;
+            records[link.previous].link.next = link.next;
         } else {
             head_[bucket] = link.next;
             if (link.next == kNone) occupied_[bucket >> 6] &= ~(uint64_t{1} << (bucket & 63));

@@ -29,7 +29,7 @@ DiamondMesh::DiamondMesh(const Domain& domain) : domain_(domain) {
     const DiamondIndex root = make_record({side / 2, side / 2}, 0);
     CHECK(root == kRoot);
     // Parents of the root are the corners off its hypotenuse; direction 1 is (+, +).
-    diamonds_[root].apex_dir = static_cast<uint8_t>(apex_direction(domain, {side / 2, side / 2}, 0));
+    diamonds_[root].apex_dir = static_cast<uint16_t>(apex_direction(domain, {side / 2, side / 2}, 0)) & 7;
     const bool towards_far_corner = diamonds_[root].apex_dir == 1;
     diamonds_[root].parent[0] = towards_far_corner ? 3u : 2u;
     diamonds_[root].parent[1] = towards_far_corner ? 0u : 1u;
@@ -55,7 +55,7 @@ DiamondIndex DiamondMesh::make_record(GridPoint centre, int level) {
     Diamond& d = diamonds_[index];
     d.x = static_cast<uint16_t>(centre.x);
     d.y = static_cast<uint16_t>(centre.y);
-    d.level = static_cast<uint8_t>(level);
+    d.level = static_cast<uint16_t>(level) & 31;
     d.is_used = true;
     return index;
 }
@@ -71,7 +71,7 @@ DiamondIndex DiamondMesh::neighbour(DiamondIndex index, int side, int& neighbour
     const int which = kSharedParent[side];
     const DiamondIndex parent = d.parent[which];
     if (!is_record(parent) || parent < kCornerCount) return kOutside;
-    const DiamondIndex other = child(parent, d.slot[which] + kRingStep[side]);
+    const DiamondIndex other = child(parent, d.slot(which) + kRingStep[side]);
     if (!is_record(other)) return kOutside;
     const int other_which = diamonds_[other].parent[0] == parent ? 0 : 1;
     neighbour_side = kSideOf[other_which][kRingStep[side] < 0 ? 1 : 0];
@@ -83,7 +83,7 @@ DiamondIndex DiamondMesh::missing_parent(DiamondIndex index) const {
     for (int which = 0; which < 2; ++which) {
         if (d.parent[which] != kUnsplit) continue;
         int side = 0;
-        return neighbour(d.parent[1 - which], d.slot[1 - which], side);
+        return neighbour(d.parent[1 - which], d.slot(1 - which), side);
     }
     return kOutside;
 }
@@ -101,14 +101,14 @@ DiamondIndex DiamondMesh::make_child(DiamondIndex index, int side) {
         Diamond& c = diamonds_[shared];
         const int free_place = c.parent[0] == other ? 1 : 0;
         c.parent[free_place] = index;
-        c.slot[free_place] = static_cast<uint8_t>(side);
+        c.set_slot(free_place, side);
         return shared;
     }
     const DiamondIndex made = make_record(centre, parent.level + 1);
     Diamond& c = diamonds_[made];
-    c.apex_dir = static_cast<uint8_t>((direction + 4) & 7);
+    c.apex_dir = static_cast<uint16_t>(direction + 4) & 7;
     c.parent[0] = index;
-    c.slot[0] = static_cast<uint8_t>(side);
+    c.set_slot(0, side);
     const GridPoint beyond = step_from(centre, direction, domain_.reach(c.level));
     c.parent[1] = domain_.contains(beyond) ? kUnsplit : kOutside;
     return made;

@@ -2,7 +2,7 @@
 //
 // Records live in one pool; kinship is by index, so neither operation searches or hashes. A record exists for
 // every split diamond and for every diamond that could be split next (one parent or both split). A leaf triangle
-// is a pair (unsplit diamond, split parent). 24 bytes a record, 16 more for the children of a split one.
+// is a pair (unsplit diamond, split parent). 20 bytes a record, 16 more for the children of a split one.
 //
 // Invariants (terrain/validate.h proves them): a split diamond's parents are split; children link back; the mesh
 // has no T-junction.
@@ -33,13 +33,23 @@ struct Diamond {
     uint16_t x = 0, y = 0;                          ///< centre
     DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
     uint32_t kids = kOutside;                       ///< block of four child indices; kOutside: unsplit
-    uint8_t level = 0;
-    uint8_t apex_dir = 0;
-    uint8_t slot[2] = {0, 0};  ///< this record's place among parent[i]'s children
-    uint8_t split_kids = 0;    ///< children that are split
-    bool is_split = false;
+    uint16_t level : 5 = 0;
+    uint16_t apex_dir : 3 = 0;    ///< 0 … 7, diamond.h
+    uint16_t slot0 : 2 = 0;       ///< this record's place among parent[0]'s children
+    uint16_t slot1 : 2 = 0;       ///< … and among parent[1]'s
+    uint16_t split_kids : 3 = 0;  ///< children that are split
+    uint16_t is_split : 1 = 0;
     bool is_used = false;  ///< false: on the free list
+    uint8_t unused = 0;
 
+    int slot(int which) const { return which == 0 ? slot0 : slot1; }
+    void set_slot(int which, int side) {
+        if (which == 0) {
+            slot0 = side & 3;
+        } else {
+            slot1 = side & 3;
+        }
+    }
     GridPoint centre() const { return {x, y}; }
 };
 
@@ -59,7 +69,7 @@ struct MergeOutcome {
     uint32_t mergeable_count = 0;
 };
 
-static_assert(sizeof(Diamond) == 24);
+static_assert(sizeof(Diamond) == 20);
 
 class DiamondMesh {
   public:

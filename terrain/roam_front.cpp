@@ -18,23 +18,6 @@ constexpr size_t kIncoherentShare = 4;
 /// Subtrees are worth taking back whole when their error is this many buckets (two octaves) below the limit.
 constexpr int kClimbMargin = 16;
 
-/// The longest cell side anywhere in the raster, metres: columns, rows.
-glm::dvec2 longest_cell_m(const data::HeightGrid& grid) {
-    glm::dvec2 longest(0.0);
-    constexpr int kProbes = 8;
-    for (int i = 0; i <= kProbes; ++i) {
-        for (int j = 0; j <= kProbes; ++j) {
-            const int col = std::min((grid.width - 2) * i / kProbes, grid.width - 2);
-            const int row = std::min((grid.height - 2) * j / kProbes, grid.height - 2);
-            const glm::dvec3 here = grid.frame.world_from_sample(col, row, double(grid.max_m));
-            const glm::dvec3 east = grid.frame.world_from_sample(col + 1, row, double(grid.max_m));
-            const glm::dvec3 south = grid.frame.world_from_sample(col, row + 1, double(grid.max_m));
-            longest = glm::max(longest, glm::dvec2(glm::length(east - here), glm::length(south - here)));
-        }
-    }
-    return longest * 1.01;
-}
-
 /// Chord of the rotation between two orientations: moves a point at distance 1 by at most this.
 double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
     double sum = 0.0;
@@ -45,20 +28,13 @@ double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
 
 }  // namespace
 
-RoamFront::RoamFront(const data::HeightGrid& grid, ErrorGrid errors, const RoamOptions& options)
-    : grid_(grid), errors_(std::move(errors)), options_(options), mesh_(errors_.domain) {
+RoamFront::RoamFront(const data::HeightGrid& grid, DiamondTable table, const RoamOptions& options)
+    : grid_(grid),
+      table_(std::move(table)),
+      options_(options),
+      bound_of_(grid, table_.domain),
+      mesh_(table_.domain) {
     scale_.reference_px = options.tolerance_px > 0.0 ? static_cast<float>(options.tolerance_px) : 1.0f;
-    anchor_ = grid.frame.world_from_sample(grid.width / 2, grid.height / 2,
-                                           double(grid.at(grid.width / 2, grid.height / 2)));
-    const glm::dvec2 cell = longest_cell_m(grid);
-    const auto chord = grid.frame.chord_error_per_cell2();
-    for (int level = 0; level <= errors_.domain.finest_level(); ++level) {
-        const double reach = errors_.domain.reach(level);
-        const double straight =
-            (level & 1) == 0 ? reach * std::hypot(cell.x, cell.y) : reach * std::max(cell.x, cell.y);
-        reach_m_.push_back(straight + 4.0 * reach * reach * (chord.up_m + chord.side_m));
-    }
-    mesh_.reserve(options.reserve_triangles);
     reset();
 }
 
@@ -68,15 +44,13 @@ void RoamFront::reset() {
     std::fill(ranks_.begin(), ranks_.end(), Rank{});
     std::fill(wake_m_.begin(), wake_m_.end(), kNever);
     std::fill(wake_rad_.begin(), wake_rad_.end(), kNever);
-    mesh_ = DiamondMesh(errors_.domain);
+    mesh_ = DiamondMesh(table_.domain);
     mesh_.reserve(options_.reserve_triangles);
     grow_arrays();
     for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
-        make_bound(corner);
         tessellator_.add_vertex(corner);
     }
-    make_bound(kRoot);
-    ranks_[kRoot] = Rank{};
+    ranks_[kRoot].source = table_.at(mesh_[kRoot].centre(), 0);
     enqueue(kRoot, Queue::kSplit);
     wake_m_[kRoot] = -1.0f;  // ranked by the next frame
 }
@@ -84,11 +58,8 @@ void RoamFront::reset() {
 /// Room for every record the mesh has; the arrays follow its capacity, so that this rarely does anything.
 void RoamFront::grow_arrays() {
     const size_t count = mesh_.record_count();
-    if (bounds_.size() >= count) return;
-    const size_t size =
-        std::max<size_t>({count, bounds_.size() * 2, options_.reserve_triangles * 5 / 4 + 64});
-    bounds_.resize(size);
-    links_.resize(size);
+    if (ranks_.size() >= count) return;
+    const size_t size = std::max<size_t>({count, ranks_.size() * 2, options_.reserve_triangles * 5 / 4 + 64});
     ranks_.resize(size);
     wake_m_.resize(size, kNever);
     wake_rad_.resize(size, kNever);
@@ -98,35 +69,18 @@ void RoamFront::grow_arrays() {
     chain_.reserve(256);
 }
 
-void RoamFront::make_bound(DiamondIndex index) {
-    const Diamond& d = mesh_[index];
-    const Domain& domain = mesh_.domain();
-    const GridPoint centre = domain.clamped(d.centre());
-    const float height = grid_.at(centre.x, centre.y);
-    const glm::dvec3 at = grid_.frame.world_from_sample(centre.x, centre.y, double(height)) - anchor_;
-    DiamondBound& bound = bounds_[index];
-    bound.x = static_cast<float>(at.x);
-    bound.y = static_cast<float>(at.y);
-    bound.z = static_cast<float>(at.z);
-    if (index < kCornerCount) return;
-    float rise = 0.0f;
-    for (int corner = 0; corner < 4; ++corner) {
-        const GridPoint p = step_from(d.centre(), d.apex_dir + 2 * corner, domain.reach(d.level));
-        if (!domain.contains(p)) continue;
-        const GridPoint q = domain.clamped(p);
-        rise = std::max(rise, std::abs(grid_.at(q.x, q.y) - height));
-    }
-    bound.error_m = errors_.error_m(d.centre());
-    const double rounding = (std::abs(at.x) + std::abs(at.y) + std::abs(at.z)) * 0x1p-24;
-    const double reach = reach_m_[d.level];
-    bound.radius_m = static_cast<float>(
-        (std::sqrt(reach * reach + double(rise) * double(rise)) + double(bound.error_m) + rounding) *
-        (1.0 + 1e-6));
-}
-
 Evaluation RoamFront::evaluate_now(DiamondIndex index, Watch watch) {
     ++evaluations_;
-    return evaluate(bounds_[index], eyes_, scale_, watch);
+    return evaluate(bound(index), eyes_, scale_, watch);
+}
+
+/// The bucket of a diamond and of everything that hangs below it. A descendant may reach beyond its ancestor,
+/// over a side it shares with a neighbour, but stays within sqrt(2) + 1 of its radius.
+Bucket RoamFront::family_bucket(DiamondIndex index) {
+    ++evaluations_;
+    DiamondBound family = bound(index);
+    family.radius_m *= 2.4142136f;
+    return evaluate(family, eyes_, scale_, Watch::kRise).bucket;
 }
 
 /// Evaluates a record and sets when it wakes next.
@@ -147,13 +101,13 @@ void RoamFront::enqueue(DiamondIndex index, Queue queue) {
     Rank& r = ranks_[index];
     DCHECK(r.queue == Queue::kNone);
     r.queue = queue;
-    (queue == Queue::kSplit ? split_queue_ : merge_queue_).push(links_, index, r.bucket);
+    (queue == Queue::kSplit ? split_queue_ : merge_queue_).push(ranks_, index, r.bucket);
 }
 
 void RoamFront::dequeue(DiamondIndex index) {
     Rank& r = ranks_[index];
     if (r.queue == Queue::kNone) return;
-    (r.queue == Queue::kSplit ? split_queue_ : merge_queue_).remove(links_, index, r.bucket);
+    (r.queue == Queue::kSplit ? split_queue_ : merge_queue_).remove(ranks_, index, r.bucket);
     r.queue = Queue::kNone;
     wake_m_[index] = wake_rad_[index] = kNever;
 }
@@ -166,13 +120,13 @@ void RoamFront::refresh(DiamondIndex index) {
     rank(index, queue == Queue::kMerge ? Watch::kRiseAndFall : Watch::kRise);
     if (r.bucket == before) return;
     BucketQueue& home = queue == Queue::kSplit ? split_queue_ : merge_queue_;
-    home.remove(links_, index, before);
-    home.push(links_, index, r.bucket);
+    home.remove(ranks_, index, before);
+    home.push(ranks_, index, r.bucket);
 }
 
 /// A new candidate.
 void RoamFront::admit(DiamondIndex index) {
-    make_bound(index);
+    ranks_[index].source = table_.at(mesh_[index].centre(), mesh_[index].level);
     rank(index, Watch::kRise);
     enqueue(index, Queue::kSplit);
 }
@@ -182,7 +136,7 @@ void RoamFront::advance_odometers(std::span<const lod::View> views) {
     std::vector<AnchoredEye>& eyes = eyes_;
     step_m_ = step_rad_ = 0.0;
     for (size_t i = 0; i < views.size(); ++i) {
-        const AnchoredEye now{lod::metric_of(views[i]), views[i].eye_world - anchor_};
+        const AnchoredEye now(views[i], bound_of_.anchor_world());
         if (i < eyes.size()) {
             const lod::ViewMetric& then = eyes[i].metric;
             is_comparable = is_comparable && then.lambda_px == now.metric.lambda_px &&
@@ -194,7 +148,7 @@ void RoamFront::advance_odometers(std::span<const lod::View> views) {
     }
     eyes.clear();
     for (const lod::View& view : views)
-        eyes.push_back({lod::metric_of(view), view.eye_world - anchor_});
+        eyes.emplace_back(view, bound_of_.anchor_world());
     odometer_m_ += step_m_;
     odometer_rad_ += step_rad_;
     if (is_comparable && odometer_m_ < kOdometerLimit_m && odometer_rad_ < kOdometerLimit_m) return;
@@ -236,7 +190,7 @@ void RoamFront::prune() {
         const DiamondIndex index = chain_.back();
         chain_.pop_back();
         if (!mesh_[index].is_used || !mesh_[index].is_split) continue;
-        if (evaluate_now(index, Watch::kRise).bucket < limit) {
+        if (family_bucket(index) < limit) {
             merge_subtree(index);
             continue;
         }
@@ -299,7 +253,8 @@ double RoamFront::error_px() {
 
 /// Splits one candidate whose parents are split.
 uint32_t RoamFront::split_one(DiamondIndex index) {
-    dequeue(index);
+    split_queue_.remove(ranks_, index, ranks_[index].bucket);
+    ranks_[index].queue = Queue::kNone;
     const SplitOutcome outcome = mesh_.split(index);
     grow_arrays();
     tessellator_.add_vertex(index);
@@ -307,8 +262,9 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
         dequeue(outcome.no_longer_mergeable[i]);
     for (uint32_t i = 0; i < outcome.created_count; ++i)
         admit(outcome.created[i]);
-    rank(index, Watch::kRiseAndFall);
-    enqueue(index, Queue::kMerge);
+    // Its evaluation stands; that it does not watch for a fall yet only delays a merge until it next wakes.
+    ranks_[index].queue = Queue::kMerge;
+    merge_queue_.push(ranks_, index, ranks_[index].bucket);
     return 1;
 }
 
@@ -334,7 +290,7 @@ lod::Step RoamFront::refine() {
 /// Merges one diamond without split children; its record becomes a candidate again.
 void RoamFront::merge_one(DiamondIndex index) {
     ranks_[index].queue = Queue::kMerge;
-    merge_queue_.remove(links_, index, ranks_[index].bucket);
+    merge_queue_.remove(ranks_, index, ranks_[index].bucket);
     ranks_[index].queue = Queue::kNone;
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
@@ -392,7 +348,7 @@ DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
         DiamondIndex next = kOutside;
         for (DiamondIndex parent : d.parent) {
             if (!is_record(parent) || parent < kCornerCount) continue;
-            if (evaluate_now(parent, Watch::kRise).bucket < limit) {
+            if (family_bucket(parent) < limit) {
                 next = parent;
                 break;
             }
@@ -435,7 +391,7 @@ void RoamFront::place(const lod::PoolRegion& region) {
 }
 
 void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
-    tessellator_.emit({grid_, errors_, mesh_, bounds_, anchor_}, view, out);
+    tessellator_.emit({grid_, table_, mesh_, bound_of_}, view, out);
 }
 
 uint64_t RoamFront::memory_bytes() const {
@@ -458,14 +414,15 @@ std::string RoamFront::validate() const {
         if (ranks_[i].queue != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
         queued += expected != Queue::kNone ? 1 : 0;
         if (expected == Queue::kNone || eyes_.empty()) continue;
-        const Evaluation now = evaluate(bounds_[i], eyes_, scale_, Watch::kRise);
+        const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
         if (now.bucket > ranks_[i].bucket)
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
     }
     uint64_t linked = 0;
     for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
-        for (Bucket b = 0; b < kBucketCount; ++b) {
-            for (uint32_t i = queue->head(b); i != BucketQueue::kNone; i = links_[i].next) {
+        for (uint32_t b = 0; b < kBucketCount; ++b) {
+            for (uint32_t i = queue->head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
+                 i = ranks_[i].link.next) {
                 if (ranks_[i].bucket != b)
                     return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
                 if (++linked > queued) return "a queue has a loop or a stray record";
@@ -476,7 +433,7 @@ std::string RoamFront::validate() const {
 }
 
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {
-    return std::make_unique<RoamFront>(grid, compute_errors(grid, options.threads), options);
+    return std::make_unique<RoamFront>(grid, make_diamond_table(grid, options.threads), options);
 }
 
 }  // namespace terrain

@@ -2,7 +2,7 @@
 // height grid, steered by two priority queues.
 //
 //     DiamondMesh   which diamonds are split            (diamond_mesh.h, topology)
-//     ErrorGrid     how wrong each may be, in metres    (error_grid.h, computed once)
+//     DiamondTable  how wrong each may be, in metres    (diamond_table.h, computed once)
 //     evaluate      the same in pixels, and for how long (diamond_metric.h)
 //     BucketQueue   worst candidate, cheapest merge      (bucket_queue.h)
 //     Tessellator   the triangles, in Sierpinski order   (tessellator.h)
@@ -20,7 +20,7 @@
 #include "terrain/bucket_queue.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_metric.h"
-#include "terrain/error_grid.h"
+#include "terrain/diamond_table.h"
 #include "terrain/tessellator.h"
 
 namespace terrain {
@@ -37,8 +37,8 @@ struct RoamOptions {
 class RoamFront final : public lod::Front {
   public:
     /// @param grid    must outlive the front
-    /// @param errors  of the same grid
-    RoamFront(const data::HeightGrid& grid, ErrorGrid errors, const RoamOptions& options);
+    /// @param table   of the same grid
+    RoamFront(const data::HeightGrid& grid, DiamondTable table, const RoamOptions& options);
 
     void begin_frame(std::span<const lod::View> views, double time_s) override;
     double refine_error_px() override;
@@ -59,7 +59,7 @@ class RoamFront final : public lod::Front {
     void reset();
 
     const DiamondMesh& mesh() const { return mesh_; }
-    const ErrorGrid& errors() const { return errors_; }
+    const DiamondTable& table() const { return table_; }
     /// Evaluations since construction: what lazy re-evaluation saves.
     uint64_t evaluations() const { return evaluations_; }
     /// Bytes of the front itself beyond the height grid and its errors, in use.
@@ -67,15 +67,19 @@ class RoamFront final : public lod::Front {
 
   private:
     enum class Queue : uint8_t { kNone, kSplit, kMerge };
+    /// What ranks a record; 20 bytes.
     struct Rank {
+        DiamondSource source;
+        BucketLink link;
         Bucket bucket = 0;
         uint8_t stamp = 0;  ///< frame of the evaluation, modulo 256
         Queue queue = Queue::kNone;
     };
 
     void grow_arrays();
-    void make_bound(DiamondIndex index);
+    DiamondBound bound(DiamondIndex index) const { return bound_of_(mesh_[index], ranks_[index].source); }
     Evaluation evaluate_now(DiamondIndex index, Watch watch);
+    Bucket family_bucket(DiamondIndex index);
     void rank(DiamondIndex index, Watch watch);
     void enqueue(DiamondIndex index, Queue queue);
     void dequeue(DiamondIndex index);
@@ -90,16 +94,13 @@ class RoamFront final : public lod::Front {
     void prune();
 
     const data::HeightGrid& grid_;
-    ErrorGrid errors_;
+    DiamondTable table_;
     RoamOptions options_;
     BucketScale scale_;
-    glm::dvec3 anchor_{0.0};
-    std::vector<double> reach_m_;  ///< [level] centre to corner, horizontally, upper bound
+    BoundMaker bound_of_;
 
     DiamondMesh mesh_;
-    std::vector<DiamondBound> bounds_;  ///< [record], as all below
-    std::vector<BucketLink> links_;
-    std::vector<Rank> ranks_;
+    std::vector<Rank> ranks_;               ///< [record]
     std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
     BucketQueue split_queue_, merge_queue_;
 

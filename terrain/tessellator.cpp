@@ -1,7 +1,7 @@
 #include "terrain/tessellator.h"
 
 #include "lod/base/check.h"
-#include "lod/screen_error.h"
+#include "terrain/diamond_metric.h"
 
 namespace terrain {
 namespace {
@@ -21,20 +21,19 @@ struct Walk {
     /// Sphere against the frustum: outside, crossing or inside.
     bool is_visible(DiamondIndex index, Sight& sight) const {
         if (sight == Sight::kInside) return true;
-        const DiamondBound& bound = input.bounds[index];
-        const glm::dvec3 centre =
-            eye.metric.eye_from_world * (glm::dvec3(bound.x, bound.y, bound.z) - eye.eye);
-        const double outside = lod::distance_outside_m(eye.metric, centre, double(bound.radius_m));
-        if (outside > 0.0) return false;
-        if (outside < -2.0 * double(bound.radius_m)) sight = Sight::kInside;
+        const Diamond& d = input.mesh[index];
+        const DiamondBound bound = input.bound_of(d, input.table.at(d.centre(), d.level));
+        const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), bound.radius_m);
+        if (outside > 0.0f) return false;
+        if (outside < -2.0f * bound.radius_m) sight = Sight::kInside;
         return true;
     }
 
     /// A leaf triangle of level 0 … finest that covers no valid sample.
     bool is_hole(const Diamond& d, int half) const {
-        if (!has_voids || !input.mesh.domain().in_raster(d.centre())) return false;
+        if (!has_voids) return false;
         const int dir = (d.apex_dir + 4 * half) & 7;
-        return (input.errors.empty_halves[input.grid.index(d.x, d.y)] >> half_bit(dir) & 1) != 0;
+        return (input.table.empty_halves[input.table.index(d.centre(), d.level)] >> half_bit(dir) & 1) != 0;
     }
 
     bool is_squeezed(GridPoint a, GridPoint b, GridPoint c) const {
@@ -155,7 +154,7 @@ void Tessellator::emit(const TessellationInput& input, const lod::View& view, lo
         is_first_view_ = false;
     }
     const size_t first = indices_.size();
-    AnchoredEye eye{lod::metric_of(view), view.eye_world - input.anchor};
+    const AnchoredEye eye(view, input.bound_of.anchor_world());
     const Walk walk{input, eye, indices_, input.grid.has_voids()};
     const Diamond& root = input.mesh[kRoot];
     // Domain corners: 0 (0,0), 1 (side,0), 2 (0,side), 3 (side,side).

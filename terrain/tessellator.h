@@ -11,19 +11,18 @@
 #include "data/height_grid.h"
 #include "lod/draw_list.h"
 #include "lod/view.h"
+#include "terrain/diamond_bound.h"
 #include "terrain/diamond_mesh.h"
-#include "terrain/diamond_metric.h"
-#include "terrain/error_grid.h"
+#include "terrain/diamond_table.h"
 
 namespace terrain {
 
 /// What the walk reads; all of it belongs to the front.
 struct TessellationInput {
     const data::HeightGrid& grid;
-    const ErrorGrid& errors;
+    const DiamondTable& table;
     const DiamondMesh& mesh;
-    std::span<const DiamondBound> bounds;
-    glm::dvec3 anchor{0.0};
+    const BoundMaker& bound_of;
 };
 
 class Tessellator {

@@ -91,11 +91,6 @@ float hypotenuse_on_axis(const data::HeightGrid& grid, const TriangleCorners& t,
     return worst;
 }
 
-float steepest(const data::HeightGrid& grid, float gx, float gy) {
-    const glm::dvec2 cell = grid.frame.cell_m();
-    return static_cast<float>(std::hypot(double(gx) / cell.x, double(gy) / cell.y));
-}
-
 }  // namespace
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
@@ -146,7 +141,7 @@ TriangleError regular_triangle_error(const data::HeightGrid& grid, const Triangl
         gx = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.x - t.left.x);
         worst = hypotenuse_on_axis(grid, t, gx, gy);
     }
-    return {with_rounding(worst, scale), steepest(grid, gx, gy)};
+    return {with_rounding(worst, scale), gx, gy};
 }
 
 TriangleError clamped_triangle_error(const data::HeightGrid& grid, const Domain& domain,
@@ -170,8 +165,8 @@ TriangleError clamped_triangle_error(const data::HeightGrid& grid, const Domain&
     // The gradient itself is rounded here: up to 2^-24 of it for every cell of the widest row.
     const float slack = static_cast<float>(std::abs(gx) * domain.width * 0x1p-23);
     const float scale = std::max({std::abs(float(ha)), std::abs(float(ha + hl)), std::abs(float(ha + hr))});
-    return {worst == 0.0f ? 0.0f : with_rounding(worst, scale) + slack,
-            steepest(grid, static_cast<float>(gx), static_cast<float>(gy))};
+    return {worst == 0.0f ? 0.0f : with_rounding(worst, scale) + slack, static_cast<float>(gx),
+            static_cast<float>(gy)};
 }
 
 VoidCover void_cover(const data::HeightGrid& grid, const Domain& domain, const TriangleCorners& t) {

@@ -1,4 +1,4 @@
-// The largest distance of height samples from the plane of one bintree triangle: the kernel of ErrorGrid.
+// The largest distance of height samples from the plane of one bintree triangle: the kernel of DiamondTable.
 #pragma once
 
 #include "data/height_grid.h"
@@ -11,10 +11,11 @@ struct TriangleCorners {
     GridPoint apex, left, right;  ///< left and right end the hypotenuse
 };
 
-/// Residual and slope of one triangle over a height grid.
+/// Residual and plane of one triangle over a height grid.
 struct TriangleError {
     float residual_m = 0.0f;  ///< max |sample - plane| over every covered sample, vertical; an upper bound
-    float slope = 0.0f;       ///< steepest rise of the plane, metres per metre
+    float gradient_x = 0.0f;  ///< of the plane, metres per column
+    float gradient_y = 0.0f;  ///< metres per row
 };
 
 /// For a triangle that lies inside the raster: plane gradients are exact, rows are contiguous.

@@ -30,7 +30,7 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
         ++present;
         if (mesh[parent].centre() != apex) return fault(index, d, "parent is not its apex");
         if (!mesh[parent].is_used || !mesh[parent].is_split) return fault(index, d, "parent is not split");
-        if (parent >= kCornerCount && mesh.child(parent, d.slot[which]) != index) {
+        if (parent >= kCornerCount && mesh.child(parent, d.slot(which)) != index) {
             return fault(index, d, "parent does not know it");
         }
     }
