@@ -8,9 +8,9 @@
 namespace sim {
 namespace {
 
-constexpr glm::vec3 kStraw{0.74f, 0.68f, 0.46f}, kPasture{0.52f, 0.60f, 0.34f}, kCrop{0.44f, 0.54f, 0.30f};
+constexpr glm::vec3 kStraw{0.80f, 0.73f, 0.50f}, kPasture{0.56f, 0.62f, 0.38f}, kCrop{0.45f, 0.53f, 0.31f};
 constexpr glm::vec3 kHedge{0.28f, 0.36f, 0.22f};
-constexpr glm::vec3 kForest{0.25f, 0.345f, 0.215f}, kWood{0.37f, 0.45f, 0.265f};
+constexpr glm::vec3 kForest{0.245f, 0.325f, 0.215f}, kWood{0.40f, 0.45f, 0.275f};
 constexpr glm::vec3 kMeadow{0.58f, 0.60f, 0.40f}, kHeath{0.53f, 0.50f, 0.37f};
 constexpr glm::vec3 kRock{0.64f, 0.60f, 0.55f}, kDarkRock{0.46f, 0.435f, 0.41f};
 constexpr glm::vec3 kSnow{0.96f, 0.97f, 0.99f};
@@ -20,11 +20,15 @@ float ramp(float low, float high, float x) {
     return glm::smoothstep(low, high, x);
 }
 
-glm::vec3 field_colour(const glm::vec2& position_m) {
-    const Patch patch = patch_at(position_m / 230.0f);
-    glm::vec3 colour = patch.id < 0.3f ? kStraw : patch.id < 0.7f ? kPasture : kCrop;
-    colour *= 0.92f + 0.16f * std::fmod(patch.id * 17.0f, 1.0f);
-    return glm::mix(kHedge, colour, ramp(0.02f, 0.10f, patch.border));
+/// Fields half as long again as they are wide, their borders a little bent; some hedges are gone.
+glm::vec3 field_colour(const glm::vec2& position_m, float broad) {
+    const glm::vec2 turned(0.8f * position_m.x - 0.6f * position_m.y,
+                           0.6f * position_m.x + 0.8f * position_m.y);
+    const Patch patch = patch_at(turned / glm::vec2(150.0f, 230.0f) + 0.5f * broad);
+    glm::vec3 colour = patch.id < 0.25f ? kStraw : patch.id < 0.7f ? kPasture : kCrop;
+    colour *= 0.90f + 0.20f * std::fmod(patch.id * 17.0f, 1.0f);
+    const float hedge = 1.0f - ramp(0.02f, 0.07f, patch.border);
+    return glm::mix(colour, kHedge, hedge * (patch.id * 7.0f - std::floor(patch.id * 7.0f)));
 }
 
 glm::vec3 sea_colour(const GroundSpot& spot, float noise) {
@@ -51,7 +55,7 @@ glm::vec3 ground_albedo(const GroundSpot& spot, const Climate& climate) {
     const float warm =
         1.0f - ramp(climate.tree_line_m - 1100.0f, climate.tree_line_m - 600.0f, spot.height_m);
     const float farmed = level * low * warm * ramp(-0.30f, 0.05f, broad);
-    if (farmed > 0.0f) colour = glm::mix(colour, field_colour(spot.position_m), farmed);
+    if (farmed > 0.0f) colour = glm::mix(colour, field_colour(spot.position_m, broad), farmed);
 
     const float above_trees = spot.height_m + 260.0f * broad + 120.0f * fine;
     const glm::vec3 open = glm::mix(kHeath, kMeadow, ramp(-0.3f, 0.4f, fine + broad));
@@ -71,7 +75,9 @@ glm::vec3 ground_albedo(const GroundSpot& spot, const Climate& climate) {
         colour = glm::mix(glm::mix(colour, sea_colour(spot, broad), ramp(0.45f, 0.6f, spot.sea)), kSand,
                           0.35f * beach);
     }
-    return colour * (1.0f + 0.10f * fine);
+    const float crowns = fractal_noise(spot.position_m / 27.0f, 3);
+    const float rough = 1.0f - 0.75f * farmed;
+    return colour * (1.0f + 0.12f * fine + 0.34f * crowns * rough * (1.0f - spot.sea));
 }
 
 }  // namespace sim

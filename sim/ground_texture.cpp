@@ -32,6 +32,7 @@ struct Painting {
     Relief relief;
     Climate climate;
     glm::vec2 cell_m{1.0f};
+    float steepening = 1.0f;  ///< for the light only: coarse samples have smoothed the slopes they measured
     float flat_light = 1.0f;  ///< luminance of level ground, what a photograph was taken under
 };
 
@@ -124,8 +125,8 @@ glm::vec3 colour_at(const Painting& painting, const SampleRows& rows, double col
     spot.shore_m = sample.sea.y;
     const glm::vec3 albedo = ground_albedo(spot, painting.climate);
 
-    const float openness = std::clamp(0.92f + sample.land.x / 500.0f, 0.6f, 1.08f);
-    const float lambert = cosine_to_sun(gradient) * sample.land.y;
+    const float openness = std::clamp(0.85f + sample.land.x / 400.0f, 0.5f, 1.05f);
+    const float lambert = cosine_to_sun(gradient * painting.steepening) * sample.land.y;
     glm::vec3 colour = lit(albedo, lambert, openness);
     if (painting.imagery.width > 0) {
         const glm::vec4 photo = imagery_at(painting, col, row);
@@ -189,8 +190,9 @@ data::Image paint_ground(const data::HeightGrid& grid, const data::Image& imager
         grid.frame.world().has_datum ? grid.frame.site_from_grid(middle_col, middle_row).y : 45.0;
     Painting painting{grid, imagery, measure_relief(grid, options.threads),
                       climate_at(latitude_deg * std::numbers::pi / 180.0), glm::vec2(grid.frame.cell_m())};
+    painting.steepening = 1.0f + 1.2f * glm::smoothstep(5.0f, 90.0f, painting.cell_m.x);
     painting.flat_light =
-        glm::dot(lit(glm::vec3(1.0f), static_cast<float>(kSunEnu.z), 0.92f), glm::vec3(0.3f, 0.6f, 0.1f));
+        glm::dot(lit(glm::vec3(1.0f), static_cast<float>(kSunEnu.z), 0.85f), glm::vec3(0.3f, 0.6f, 0.1f));
 
     const Ratio ratio = ratio_of(grid, imagery, options);
     data::Image image;

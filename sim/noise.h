@@ -44,7 +44,7 @@ struct Patch {
     float border = 0.0f;  ///< 0 on the border, about 1 in the middle
 };
 
-/// Voronoi cells of jittered lattice points, patches of size about 1.
+/// Voronoi cells of lattice points moved a little: patches of size about 1, many with four sides.
 inline Patch patch_at(glm::vec2 p) {
     const glm::vec2 base = glm::floor(p);
     float nearest = 1e9f, second = 1e9f;
@@ -53,7 +53,8 @@ inline Patch patch_at(glm::vec2 p) {
         for (int dx = -1; dx <= 1; ++dx) {
             const glm::vec2 cell = base + glm::vec2(dx, dy);
             const auto x = static_cast<int32_t>(cell.x), y = static_cast<int32_t>(cell.y);
-            const glm::vec2 seed = cell + glm::vec2(lattice_noise(x, y), lattice_noise(y + 71, x - 13)) - p;
+            const glm::vec2 jitter(lattice_noise(x, y), lattice_noise(y + 71, x - 13));
+            const glm::vec2 seed = cell + 0.5f + 0.7f * (jitter - 0.5f) - p;
             const float distance = glm::dot(seed, seed);
             if (distance < nearest) {
                 second = nearest;

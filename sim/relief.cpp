@@ -46,29 +46,29 @@ std::vector<float> prominence_of(const data::HeightGrid& grid, unsigned threads)
     return mean;
 }
 
-/// Cast shadows by one sweep away from the sun, row by row: the lowest height that still sees the sun follows
-/// from the row before, where the ray through the sample comes from.
+/// Cast shadows by one sweep away from the sun, line by line: the lowest height that still sees the sun follows
+/// from the line before, where the ray through the sample comes from. Lines are columns: the sun is in the east.
 std::vector<uint8_t> sunlight_of(const data::HeightGrid& grid) {
+    static_assert(kSunEast > kSunSouth && kSunSouth > 0.0,
+                  "the sweep goes west, its rays come from the south-east");
     const glm::dvec2 cell = grid.frame.cell_m();
-    const int toward_sun = kSunEnu.y < 0.0 ? 1 : -1;                         // rows go south
-    const double shift = kSunEnu.x / std::abs(kSunEnu.y) * cell.y / cell.x;  // columns per row
-    const double drop_m = cell.y * kSunEnu.z / std::abs(kSunEnu.y);
+    const double shift = kSunSouth / kSunEast * cell.x / cell.y;  // rows per column
+    const double drop_m = cell.x * kSunEnu.z / kSunEast;
     const double soft_m = 0.15 * drop_m + 1.0;
     std::vector<uint8_t> sunlight(grid.height_m.size(), 255);
-    const auto width = static_cast<size_t>(grid.width);
-    std::vector<double> ray(width, -1e9), next(width);
-    const int first = toward_sun > 0 ? grid.height - 1 : 0;
-    for (int row = first; row >= 0 && row < grid.height; row -= toward_sun) {
-        for (size_t col = 0; col < width; ++col) {
-            const double height = static_cast<double>(grid.height_m[grid.index(0, row) + col]);
-            const double from = static_cast<double>(col) + shift;
-            const auto left = static_cast<size_t>(std::clamp(from, 0.0, static_cast<double>(width - 1)));
-            const size_t right = std::min(left + 1, width - 1);
-            const double part = std::clamp(from - static_cast<double>(left), 0.0, 1.0);
-            const double limit = ray[left] * (1.0 - part) + ray[right] * part - drop_m;
+    const auto last = static_cast<size_t>(grid.height - 1);
+    std::vector<double> ray(last + 1, -1e9), next(last + 1);
+    for (int col = grid.width - 1; col >= 0; --col) {
+        for (size_t row = 0; row <= last; ++row) {
+            const size_t index = grid.index(col, static_cast<int>(row));
+            const double height = static_cast<double>(grid.height_m[index]);
+            const double from = std::min(static_cast<double>(row) + shift, static_cast<double>(last));
+            const auto near = static_cast<size_t>(from);
+            const double part = from - static_cast<double>(near);
+            const double limit = glm::mix(ray[near], ray[std::min(near + 1, last)], part) - drop_m;
             const double seen = std::clamp(1.0 - (limit - height) / soft_m, 0.0, 1.0);
-            sunlight[grid.index(0, row) + col] = static_cast<uint8_t>(std::lround(255.0 * seen));
-            next[col] = std::max(limit, height);
+            sunlight[index] = static_cast<uint8_t>(std::lround(255.0 * seen));
+            next[row] = std::max(limit, height);
         }
         ray.swap(next);
     }

@@ -9,7 +9,7 @@
 namespace sim {
 namespace {
 
-constexpr double kVisibility_m = 70000.0;
+constexpr double kVisibility_m = 45000.0;
 
 /// Shares out the pool; the regions follow each other.
 render::PoolCapacity share_out(Stage& stage) {
@@ -188,8 +188,10 @@ lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowa
     record.update_ms = total.ms();
 
     const Stopwatch refine;
-    record.converged =
-        lod::schedule(stage.fronts, with_rigid(stage, allowance.budget), allowance.deadline).converged;
+    const lod::ScheduleResult scheduled =
+        lod::schedule(stage.fronts, with_rigid(stage, allowance.budget), allowance.deadline);
+    record.converged = scheduled.converged;
+    record.scheduled_operations = scheduled.operations;
     record.refine_ms = refine.ms();
 
     const Stopwatch emit;

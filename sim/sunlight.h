@@ -8,8 +8,9 @@
 
 namespace sim {
 
-/// Towards the sun, unit length, in a local east-north-up frame: south-east, 37 degrees high.
-inline const glm::dvec3 kSunEnu = glm::normalize(glm::dvec3(0.62, -0.50, 0.60));
+/// Towards the sun, unit length, in a local east-north-up frame: east-south-east, 33 degrees high.
+inline constexpr double kSunEast = 0.79, kSunSouth = 0.28, kSunUp = 0.5454356057317856;
+inline constexpr glm::dvec3 kSunEnu{kSunEast, -kSunSouth, kSunUp};
 
 inline constexpr glm::vec3 kSunLight{0.86f, 0.774f, 0.636f};  ///< linear, on a surface square to the sun
 inline constexpr glm::vec3 kSkyLight{0.296f, 0.348f, 0.44f};  ///< linear, from the whole sky
