@@ -12,7 +12,7 @@ constexpr double kHazeScaleHeight_m = 2500.0;  ///< height over which haze thins
 constexpr double kSunRadius_rad = 0.0075;      ///< a little larger than the real disc: reads better
 constexpr double kVisibleContrast = 0.05;      ///< what "visibility" means
 
-std::array<float, 4> vec4_of(const glm::dvec3& v, double w) {
+Vec4 vec4_of(const glm::dvec3& v, double w) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 

@@ -9,17 +9,18 @@
 
 namespace render {
 
-/// 96 bytes, every member a vec4. Directions in the eye frame, unit length.
+/// Laid out as a GLSL vec4.
+using Vec4 = std::array<float, 4>;
+
+/// 96 bytes. Directions in the eye frame, unit length.
 struct FrameBlock {
-    std::array<float, 4>
-        projection{};                ///< 1/tan_x, 1/tan_y, near [m], metres per pixel at depth 1 (1/lambda)
-    std::array<float, 4> ray{};      ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
-    std::array<float, 4> sun_eye{};  ///< w: cosine of the sun disc's radius
-    std::array<float, 4> up_eye{};   ///< w unused
-    std::array<float, 4> haze{};     ///< see mean_haze in shaders/scene.vert: extinction at the datum [octaves/m],
-                                     ///< thinning with height [octaves/m], thinning up to the eye [octaves],
-                                     ///< density at the eye relative to the datum
-    std::array<float, 4> ground_grid{};  ///< 1/grid_width, 1/grid_height, unused, unused
+    Vec4 projection{};   ///< 1/tan_x, 1/tan_y, near [m], metres per pixel at depth 1 (1/lambda)
+    Vec4 ray{};          ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
+    Vec4 sun_eye{};      ///< w: cosine of the sun disc's radius
+    Vec4 up_eye{};       ///< w unused
+    Vec4 haze{};         ///< extinction at the datum [octaves/m], thinning with height [octaves/m], thinning
+                         ///< from the datum to the eye [octaves], density at the eye relative to the datum
+    Vec4 ground_grid{};  ///< 1/grid_width, 1/grid_height, unused, unused
 };
 static_assert(sizeof(FrameBlock) == 96 && offsetof(FrameBlock, sun_eye) == 32 &&
               offsetof(FrameBlock, haze) == 64);

@@ -48,7 +48,7 @@ struct DrawStats {
     uint32_t draw_calls = 0;
     uint32_t commands = 0;
     uint64_t upload_bytes = 0;
-    uint32_t allocations = 0;  ///< GL buffers or textures created or resized during the frame
+    uint32_t allocations = 0;  ///< GL buffers or textures created or resized since the draw before
 };
 
 /// Pictures, top row first.
@@ -89,7 +89,8 @@ class Renderer {
     lod::Result<lod::Ok> resize_pool(const PoolCapacity& pool);
 
     /// Waits for the previous frame where it still reads what will be overwritten, places the writes, submits
-    /// the list's items with one indirect draw. Items after the glass flag are ordered last; a sky is added.
+    /// the list's items with one indirect draw: opaque, then the sky, then glass. Glass writes depth, too.
+    /// CHECKs that the view has the renderer's size and the writes lie in the pool.
     void draw(const lod::View& view, const lod::DrawList& list, const Atmosphere& atmosphere);
 
     /// Blocks until the last draw is complete: the honest end of a frame. Presents it when there is a window.
