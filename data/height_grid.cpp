@@ -69,20 +69,20 @@ GroundHeight ground_height(const HeightGrid& grid, double col, double row) {
 
 namespace {
 
-// Columns run to the left of rows seen from above: the CRS counts to the west, or its axes are swapped.
-bool is_mirrored(const HeightRaster& raster, const GroundFrame& frame) {
+// East and north of a step along a row, and of one along a column, in the raster's middle.
+glm::dmat2 compass_from_cells(const HeightRaster& raster, const GroundFrame& frame) {
     const double col = (raster.width - 1) * 0.5, row = (raster.height - 1) * 0.5;
     const glm::dvec3 middle = frame.world_from_grid(col, row, 0.0);
-    const glm::dvec3 along_row = frame.world_from_grid(col + 0.5, row, 0.0) - middle;
-    const glm::dvec3 along_col = frame.world_from_grid(col, row + 0.5, 0.0) - middle;
-    const glm::dvec3 up = frame.world_from_grid(col, row, 1.0) - middle;
-    return glm::dot(glm::cross(along_row, along_col), up) > 0.0;
+    const glm::dmat3 enu_from_world = glm::transpose(frame.world().world_from_enu(middle));
+    const glm::dvec3 along_row = enu_from_world * (frame.world_from_grid(col + 0.5, row, 0.0) - middle);
+    const glm::dvec3 along_col = enu_from_world * (frame.world_from_grid(col, row + 0.5, 0.0) - middle);
+    return {along_row.x, along_row.y, along_col.x, along_col.y};
 }
 
+// Rasters leave their files with x to the right and y up; here CRSs whose x and y count otherwise are put right.
 lod::Result<GroundFrame> frame_of(HeightRaster& raster) {
     auto frame = GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
-    if (!frame || !is_mirrored(raster, *frame)) return frame;
-    mirror_columns(raster);
+    if (!frame || !orient(raster, compass_from_cells(raster, *frame))) return frame;
     return GroundFrame::make(raster.geo_transform, raster.crs_wkt, raster.width, raster.height);
 }
 

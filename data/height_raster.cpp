@@ -124,42 +124,54 @@ std::vector<T> transposed(const std::vector<T>& in, int width, int height) {
 }
 
 template <typename T>
-void reverse_rows(std::vector<T>& values, int width) {
+void reverse_columns(std::vector<T>& values, int width) {
     for (auto row = values.begin(); row != values.end(); row += width)
         std::reverse(row, row + width);
 }
 
 template <typename T>
-void swap_rows(std::vector<T>& values, int width, int height) {
+void reverse_rows(std::vector<T>& values, int width, int height) {
     for (int top = 0, bottom = height - 1; top < bottom; ++top, --bottom) {
         const auto first = values.begin() + std::ptrdiff_t{top} * width;
         std::swap_ranges(first, first + width, values.begin() + std::ptrdiff_t{bottom} * width);
     }
 }
 
-}  // namespace
-
-void orient(HeightRaster& raster) {
+void transpose(HeightRaster& raster) {
+    raster.height_m = transposed(raster.height_m, raster.width, raster.height);
+    raster.is_void = transposed(raster.is_void, raster.width, raster.height);
     auto& g = raster.geo_transform;
-    const auto on_both = [&](const auto& turn) { turn(raster.height_m), turn(raster.is_void); };
-    if (std::abs(g[1]) + std::abs(g[5]) < std::abs(g[2]) + std::abs(g[4])) {
-        on_both([&](auto& values) { values = transposed(values, raster.width, raster.height); });
-        std::swap(raster.width, raster.height);
-        std::swap(g[1], g[2]);
-        std::swap(g[4], g[5]);
-    }
-    if (g[1] < 0.0) mirror_columns(raster);
-    if (g[5] > 0.0) {
-        on_both([&](auto& values) { swap_rows(values, raster.width, raster.height); });
-        g = {g[0] + g[2] * raster.height, g[1], -g[2], g[3] + g[5] * raster.height, g[4], -g[5]};
-    }
+    g = {g[0], g[2], g[1], g[3], g[5], g[4]};
+    std::swap(raster.width, raster.height);
 }
 
 void mirror_columns(HeightRaster& raster) {
-    reverse_rows(raster.height_m, raster.width);
-    reverse_rows(raster.is_void, raster.width);
+    reverse_columns(raster.height_m, raster.width);
+    reverse_columns(raster.is_void, raster.width);
     auto& g = raster.geo_transform;
     g = {g[0] + g[1] * raster.width, -g[1], g[2], g[3] + g[4] * raster.width, -g[4], g[5]};
+}
+
+void mirror_rows(HeightRaster& raster) {
+    reverse_rows(raster.height_m, raster.width, raster.height);
+    reverse_rows(raster.is_void, raster.width, raster.height);
+    auto& g = raster.geo_transform;
+    g = {g[0] + g[2] * raster.height, g[1], -g[2], g[3] + g[5] * raster.height, g[4], -g[5]};
+}
+
+}  // namespace
+
+bool orient(HeightRaster& raster, const glm::dmat2& compass_from_cells) {
+    glm::dvec2 along_row = compass_from_cells[0], along_col = compass_from_cells[1];
+    const bool is_turned =
+        std::abs(along_row.x) + std::abs(along_col.y) < std::abs(along_row.y) + std::abs(along_col.x);
+    if (is_turned) {
+        transpose(raster);
+        std::swap(along_row, along_col);
+    }
+    if (along_row.x < 0.0) mirror_columns(raster);
+    if (along_col.y > 0.0) mirror_rows(raster);
+    return is_turned || along_row.x < 0.0 || along_col.y > 0.0;
 }
 
 lod::Result<HeightRaster> read_height_raster(const std::string& path, bool has_undeclared_nodata) {
@@ -173,7 +185,10 @@ lod::Result<HeightRaster> read_height_raster(const std::string& path, bool has_u
     }
     try {
         auto raster = read_all(*file, *rules);
-        if (raster) orient(*raster);
+        if (raster) {
+            const auto& g = raster->geo_transform;
+            orient(*raster, glm::dmat2(g[1], g[4], g[2], g[5]));
+        }
         return raster;
     } catch (const std::bad_alloc&) {
         return lod::Error{"terrain '" + path + "': " + size_text(file->width, file->height) +

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -24,15 +25,15 @@ struct HeightRaster {
     }
 };
 
-/// Reads the first band of a raster; the rules are those of read_height_grid (height_grid.h).
+/// Reads the first band of a raster; the rules are those of read_height_grid (height_grid.h). Columns run with +x
+/// and rows with -y of the CRS, as near as the raster's rotation allows.
 /// Reads by rows: memory is what the result takes, and a broken file ends early.
 lod::Result<HeightRaster> read_height_raster(const std::string& path, bool has_undeclared_nodata);
 
-/// Turns and mirrors rows and columns until columns run with +x and rows with -y of the CRS, as near as the
-/// raster's rotation allows. Samples keep their places.
-void orient(HeightRaster& raster);
-
-/// Reverses the order of columns. Samples keep their places.
-void mirror_columns(HeightRaster& raster);
+/// Turns and mirrors rows and columns until columns run east and rows south, as near as quarter turns allow.
+/// Samples keep their places.
+/// @param compass_from_cells  columns: (east, north) of a step along a row, and of one along a column
+/// @returns whether anything was changed
+bool orient(HeightRaster& raster, const glm::dmat2& compass_from_cells);
 
 }  // namespace data

@@ -156,6 +156,25 @@ TEST(Imagery, TheFirstListedWins) {
     EXPECT_EQ(pixel(read({blue, red}, grid), 15, 5), glm::ivec4(0, 0, 250, 255));
 }
 
+TEST(Imagery, PixelsFinerOrCoarserThanCellsKeepTheirPlace) {
+    const HeightGrid grid = flat_grid(4, 2, {0, 8, 0, 16, 0, -8}, "");
+    RasterSpec spec = picture(16, 8, {0, 2, 0, 16, 0, -2},
+                              [](glm::dvec2 at) { return glm::dvec3(7 * at.x, 15 * at.y, 0); });
+    spec.crs.clear();
+    const std::string path = test::write_raster("fine_rgb.tif", spec);
+    const Image same = read({path}, grid);
+    ASSERT_EQ(same.width, 16);
+    for (int k = 0; k < 128; ++k) {
+        ASSERT_EQ(double(pixel(same, k % 16, k / 16).x), spec.values[static_cast<size_t>(k)]);
+        ASSERT_EQ(double(pixel(same, k % 16, k / 16).y), spec.values[static_cast<size_t>(128 + k)]);
+    }
+    const Image averaged = read({path}, grid, 4);
+    ASSERT_EQ(averaged.width, 4);
+    for (int col = 0; col < 4; ++col)
+        EXPECT_NEAR(pixel(averaged, col, 1).x, 7 * (8 * col + 4), 1);
+    EXPECT_NEAR(pixel(averaged, 0, 0).y, 15 * 12, 1);
+}
+
 TEST(Imagery, GreyAlphaNodataAndDeepBands) {
     const HeightGrid grid = flat_grid(4, 2, {0, 1, 0, 2, 0, -1}, "");
     RasterSpec grey{.width = 4,
@@ -179,6 +198,13 @@ TEST(Imagery, GreyAlphaNodataAndDeepBands) {
     EXPECT_EQ(pixel(stretched, 0, 0).x, 0);
     EXPECT_EQ(pixel(stretched, 3, 1).x, 255);
     EXPECT_NEAR(pixel(stretched, 0, 1).x, 128, 1);
+    RasterSpec dark =
+        picture(4, 2, {0, 1, 0, 2, 0, -1}, [](glm::dvec2 at) { return glm::dvec3(0, at.x > 2 ? 50 : 0, 0); });
+    dark.crs.clear();
+    dark.has_nodata = true;  // 0: of a pixel only where all three bands have it
+    const Image dark_image = read({test::write_raster("dark.tif", dark)}, grid);
+    EXPECT_EQ(pixel(dark_image, 0, 0).w, 0);
+    EXPECT_EQ(pixel(dark_image, 3, 0), glm::ivec4(0, 50, 0, 255));
     RasterSpec alpha = picture(4, 2, {0, 1, 0, 2, 0, -1}, [](glm::dvec2) { return glm::dvec3(9, 8, 7); });
     alpha.bands = 4;
     alpha.crs.clear();
