@@ -35,8 +35,8 @@ struct Vertex {
     uint16_t surface[2];  ///< kGround: texel column and row; else the normal, octahedral, snorm16 (bit-cast)
     uint8_t colour[4];    ///< sRGB red, green, blue; Material
 };
-static_assert(sizeof(Vertex) == 32 && offsetof(Vertex, position_lo) == 12 && offsetof(Vertex, surface) == 24 &&
-              offsetof(Vertex, colour) == 28);
+static_assert(sizeof(Vertex) == 32 && offsetof(Vertex, position_lo) == 12 &&
+              offsetof(Vertex, surface) == 24 && offsetof(Vertex, colour) == 28);
 
 /// 112 bytes, std430. position_eye = eye_from_model * ((hi - origin_hi) + (lo - origin_lo)).
 struct Instance {
@@ -102,7 +102,8 @@ void split_hi_lo(const glm::dvec3& value, float hi[3], float lo[3]);
 
 /// position_hi + position_lo, exact.
 inline glm::dvec3 position_of(const Vertex& v) {
-    return {double(v.position_hi[0]) + double(v.position_lo[0]), double(v.position_hi[1]) + double(v.position_lo[1]),
+    return {double(v.position_hi[0]) + double(v.position_lo[0]),
+            double(v.position_hi[1]) + double(v.position_lo[1]),
             double(v.position_hi[2]) + double(v.position_lo[2])};
 }
 

@@ -16,7 +16,15 @@ namespace lod {
 
 /// What an operation did, for the frame report.
 enum class OperationKind : uint8_t {
-    kSplit, kForcedSplit, kMerge, kEnhMerge, kClusterRefine, kClusterCoarsen, kVsplit, kEcol, kCount
+    kSplit,
+    kForcedSplit,
+    kMerge,
+    kEnhMerge,
+    kClusterRefine,
+    kClusterCoarsen,
+    kVsplit,
+    kEcol,
+    kCount
 };
 
 /// How often each kind was done.

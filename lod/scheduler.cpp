@@ -30,7 +30,8 @@ Choice cheapest(std::span<Front* const> fronts) {
 
 uint64_t total_triangles(std::span<Front* const> fronts) {
     uint64_t total = 0;
-    for (const Front* front : fronts) total += front->triangles();
+    for (const Front* front : fronts)
+        total += front->triangles();
     return total;
 }
 

@@ -29,10 +29,10 @@ inline Deadline operation_limit(uint64_t limit) {
 
 /// What a frame may spend and what it should reach.
 struct Budget {
-    double tolerance_px = 1.0;             ///< >= 0; refine what exceeds it; 0 asks for the source data itself
-    uint64_t max_triangles = UINT64_MAX;   ///< over all fronts
-    double coarsen_ratio = 0.6;            ///< in (0, 1): coarsen what stays below tolerance * this
-    double swap_ratio = 1.5;               ///< > 1: at the triangle limit, swap when refining gains this factor
+    double tolerance_px = 1.0;            ///< >= 0; refine what exceeds it; 0 asks for the source data itself
+    uint64_t max_triangles = UINT64_MAX;  ///< over all fronts
+    double coarsen_ratio = 0.6;           ///< in (0, 1): coarsen what stays below tolerance * this
+    double swap_ratio = 1.5;  ///< > 1: at the triangle limit, swap when refining gains this factor
 };
 
 /// Why the loop ended, and what it did.

@@ -33,7 +33,8 @@ inline double screen_error_px(const ViewMetric& metric, const glm::dvec3& centre
     const double distance = std::sqrt(glm::dot(centre_eye, centre_eye));
     const double front_depth = -centre_eye.z - radius_m;
     const double depth = std::max({front_depth, (distance - radius_m) / metric.stretch, metric.near_m});
-    const double slant = std::min(metric.stretch, (distance + radius_m) / std::max(front_depth, metric.near_m));
+    const double slant =
+        std::min(metric.stretch, (distance + radius_m) / std::max(front_depth, metric.near_m));
     return metric.lambda_px * error_m * std::max(slant, 1.0) / depth;
 }
 

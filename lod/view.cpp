@@ -18,7 +18,8 @@ ViewMetric metric_of(const View& view) {
     return metric;
 }
 
-View look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up_world, const View& optics) {
+View look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up_world,
+             const View& optics) {
     const glm::dvec3 back = glm::normalize(eye - target);
     glm::dvec3 right = glm::cross(up_world, back);
     if (glm::length(right) < 1e-9 * glm::length(up_world)) {  // straight up or down: any level axis will do

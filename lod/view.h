@@ -10,21 +10,21 @@ namespace lod {
 
 /// What one channel sees in one frame.
 struct View {
-    glm::dvec3 eye_world{0.0};           ///< metres
-    glm::dmat3 eye_from_world{1.0};      ///< rotation, orthonormal, right-handed
-    double fov_y_rad = 1.0;              ///< full vertical angle, in (0, pi)
-    int width_px = 640, height_px = 360; ///< both > 0
-    double near_m = 0.1;                 ///< along -z; nothing nearer is drawn; no far limit
+    glm::dvec3 eye_world{0.0};            ///< metres
+    glm::dmat3 eye_from_world{1.0};       ///< rotation, orthonormal, right-handed
+    double fov_y_rad = 1.0;               ///< full vertical angle, in (0, pi)
+    int width_px = 640, height_px = 360;  ///< both > 0
+    double near_m = 0.1;                  ///< along -z; nothing nearer is drawn; no far limit
 };
 
 /// `View` prepared for loops; make it once per view and frame with `metric_of`.
 struct ViewMetric {
     glm::dvec3 eye_world{0.0};
     glm::dmat3 eye_from_world{1.0};
-    double lambda_px = 1.0;          ///< height_px / (2 tan(fov_y/2)): pixels per unit of lateral/depth
-    double tan_x = 1.0, tan_y = 1.0; ///< half extents of the picture at depth 1
-    double cos_x = 1.0, cos_y = 1.0; ///< 1/sqrt(1 + tan^2): turns a plane distance into metres
-    double stretch = 1.0;            ///< sqrt(1 + tan_x^2 + tan_y^2): distance/depth in the picture's corner
+    double lambda_px = 1.0;           ///< height_px / (2 tan(fov_y/2)): pixels per unit of lateral/depth
+    double tan_x = 1.0, tan_y = 1.0;  ///< half extents of the picture at depth 1
+    double cos_x = 1.0, cos_y = 1.0;  ///< 1/sqrt(1 + tan^2): turns a plane distance into metres
+    double stretch = 1.0;             ///< sqrt(1 + tan_x^2 + tan_y^2): distance/depth in the picture's corner
     double near_m = 0.1;
 };
 
