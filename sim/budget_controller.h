@@ -15,7 +15,7 @@ namespace sim {
 /// What the controller steers towards.
 struct BudgetTarget {
     double frame_ms = 12.0;  ///< the part of the period that triangles may fill, > 0
-    uint64_t min_triangles = 2000;
+    uint64_t min_triangles = 5000;
     uint64_t max_triangles = 300000;  ///< what the geometry pool holds
 };
 

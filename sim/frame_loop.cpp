@@ -34,7 +34,7 @@ Loop make_loop(const LoopOptions& options) {
     Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}};
     loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
     loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
-    loop.controller.target.min_triangles = std::min<uint64_t>(2000, loop.controller.target.max_triangles);
+    loop.controller.target.min_triangles = std::min<uint64_t>(5000, loop.controller.target.max_triangles);
     loop.rest_ms = 0.5 * loop.period_ms();
     return loop;
 }

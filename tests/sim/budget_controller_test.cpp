@@ -29,6 +29,7 @@ struct Plant {
 sim::BudgetController make_controller() {
     sim::BudgetController controller;
     controller.target.frame_ms = 0.75 * kPeriod_ms;
+    controller.target.min_triangles = 100;
     return controller;
 }
 

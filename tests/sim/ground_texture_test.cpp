@@ -1,0 +1,180 @@
+// The painted ground: light falls where the sun is, whatever the number of threads or the texture's size.
+#include "sim/ground_texture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lod/base/rng.h"
+#include "sim/relief.h"
+#include "sim/sunlight.h"
+
+namespace {
+
+constexpr double kSpacing_m = 30.0;
+
+template <typename Height>
+data::HeightGrid make_grid(int width, int height, const Height& height_at) {
+    std::vector<float> heights;
+    for (int row = 0; row < height; ++row) {
+        for (int col = 0; col < width; ++col)
+            heights.push_back(static_cast<float>(height_at(col, row)));
+    }
+    return data::make_planar_grid(width, height, kSpacing_m, heights);
+}
+
+data::HeightGrid rough_grid(int width, int height) {
+    lod::Rng rng(1);
+    return make_grid(width, height, [&](int, int) { return rng.between(100.0, 160.0); });
+}
+
+struct Rgb {
+    double red = 0.0, green = 0.0, blue = 0.0;
+    double sum() const { return red + green + blue; }
+};
+
+/// Mean over a rectangle given in shares of the picture.
+Rgb mean(const data::Image& image, double left, double right) {
+    Rgb rgb;
+    double count = 0.0;
+    for (int y = image.height / 4; y < image.height * 3 / 4; ++y) {
+        for (int x = static_cast<int>(left * image.width); x < static_cast<int>(right * image.width); ++x) {
+            const uint8_t* p = &image.rgba[(static_cast<size_t>(y) * static_cast<size_t>(image.width) +
+                                            static_cast<size_t>(x)) *
+                                           4];
+            rgb.red += p[0];
+            rgb.green += p[1];
+            rgb.blue += p[2];
+            count += 1.0;
+        }
+    }
+    return {rgb.red / count, rgb.green / count, rgb.blue / count};
+}
+
+TEST(Sunlight, ComesFromTheEastSouthEastAtUnitLength) {
+    EXPECT_NEAR(glm::length(sim::kSunEnu), 1.0, 1e-12);
+    EXPECT_GT(sim::kSunEnu.x, 0.0);
+    EXPECT_LT(sim::kSunEnu.y, 0.0);
+}
+
+TEST(GroundTexture, SlopesTowardsTheSunAreBrighter) {
+    const auto ridge = make_grid(101, 101, [](int col, int) { return 300.0 - std::abs(col - 50) * 12.0; });
+    const data::Image image = sim::paint_ground(ridge, {}, {101, 8192, 2});
+    EXPECT_GT(mean(image, 0.6, 0.9).sum(), 1.25 * mean(image, 0.1, 0.4).sum());
+}
+
+TEST(GroundTexture, IsTheSameOnAnyNumberOfThreads) {
+    const data::HeightGrid grid = rough_grid(83, 61);
+    const data::Image one = sim::paint_ground(grid, {}, {300, 8192, 1});
+    const data::Image three = sim::paint_ground(grid, {}, {300, 8192, 3});
+    EXPECT_EQ(one.rgba, three.rgba);
+}
+
+TEST(GroundTexture, SizesFollowTheOptions) {
+    const data::HeightGrid grid = rough_grid(90, 60);
+    const auto size = [&](int detail_px, int max_px) {
+        const data::Image image = sim::paint_ground(grid, {}, {detail_px, max_px, 2});
+        EXPECT_EQ(image.rgba.size(),
+                  static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 4);
+        return std::pair(image.width, image.height);
+    };
+    EXPECT_EQ(size(90, 8192), std::pair(90, 60));
+    EXPECT_EQ(size(300, 8192), std::pair(270, 180));
+    EXPECT_EQ(size(90, 45), std::pair(45, 30));
+    EXPECT_EQ(size(90, 50), std::pair(45, 30));
+}
+
+TEST(GroundTexture, HalfTheSizeIsTheAverage) {
+    const data::HeightGrid grid = rough_grid(64, 64);
+    const data::Image full = sim::paint_ground(grid, {}, {64, 8192, 1});
+    const data::Image half = sim::paint_ground(grid, {}, {64, 32, 1});
+    ASSERT_EQ(half.width, 32);
+    for (size_t y = 0; y < 32; ++y) {
+        for (size_t x = 0; x < 32; ++x) {
+            const auto texel = [&](size_t col, size_t row) {
+                return int{full.rgba[(row * 64 + col) * 4 + 1]};
+            };
+            const int sum = texel(2 * x, 2 * y) + texel(2 * x + 1, 2 * y) + texel(2 * x, 2 * y + 1) +
+                            texel(2 * x + 1, 2 * y + 1);
+            EXPECT_NEAR(half.rgba[(y * 32 + x) * 4 + 1], sum / 4.0, 1.0);
+        }
+    }
+}
+
+TEST(GroundTexture, SeaIsBlueAndLandIsNot) {
+    const auto coast =
+        make_grid(120, 120, [](int col, int row) { return col < 60 ? 0.0 : 5.0 + (col + row) % 3; });
+    const data::Image image = sim::paint_ground(coast, {}, {120, 8192, 2});
+    const Rgb sea = mean(image, 0.05, 0.4), land = mean(image, 0.6, 0.95);
+    EXPECT_GT(sea.blue, 1.2 * sea.red);
+    EXPECT_GT(land.green, land.blue);
+}
+
+TEST(GroundTexture, SnowLiesOnlyHigh) {
+    const auto low = make_grid(40, 40, [](int col, int row) { return 200.0 + (col * 7 + row) % 5; });
+    const auto high = make_grid(40, 40, [](int col, int row) { return 4300.0 + (col * 7 + row) % 5; });
+    EXPECT_LT(mean(sim::paint_ground(low, {}, {40, 8192, 1}), 0.1, 0.9).blue, 150.0);
+    EXPECT_GT(mean(sim::paint_ground(high, {}, {40, 8192, 1}), 0.1, 0.9).blue, 190.0);
+}
+
+TEST(GroundTexture, ImageryCoversWhereItIsOpaque) {
+    const auto flat = make_grid(64, 64, [](int, int) { return 100.0; });
+    data::Image photo{64, 64, std::vector<uint8_t>(64 * 64 * 4, 0)};
+    for (size_t y = 0; y < 64; ++y) {
+        for (size_t x = 32; x < 64; ++x) {
+            uint8_t* p = &photo.rgba[(y * 64 + x) * 4];
+            p[0] = 200;
+            p[2] = 40;
+            p[3] = 255;
+        }
+    }
+    const data::Image image = sim::paint_ground(flat, photo, {64, 8192, 1});
+    const Rgb covered = mean(image, 0.6, 0.9), bare = mean(image, 0.1, 0.4);
+    EXPECT_NEAR(covered.red, 200.0, 6.0);  // level ground keeps the photograph's own light
+    EXPECT_NEAR(covered.green, 0.0, 2.0);
+    EXPECT_GT(bare.green, 40.0);
+}
+
+TEST(GroundTexture, OneSampleIsEnough) {
+    const data::Image image = sim::paint_ground(make_grid(1, 1, [](int, int) { return 10.0; }), {}, {});
+    EXPECT_GE(image.width, 1);
+    EXPECT_GE(image.height, 1);
+}
+
+TEST(Relief, ShadowFallsAwayFromTheSunAsFarAsTheTangentSays) {
+    constexpr double kWall_m = 300.0;
+    const auto wall = make_grid(200, 200, [](int col, int) { return col == 120 ? kWall_m : 0.0; });
+    const sim::Relief relief = sim::measure_relief(wall, 2);
+    const auto seen = [&](int col) { return int{relief.sunlight[wall.index(col, 100)]}; };
+    const double reach_cells = kWall_m / kSpacing_m * sim::kSunEast / sim::kSunUp;  // along the columns
+    EXPECT_EQ(seen(121), 255);
+    EXPECT_EQ(seen(120), 255);
+    EXPECT_EQ(seen(119), 0);
+    EXPECT_EQ(seen(120 - static_cast<int>(reach_cells) + 2), 0);
+    EXPECT_EQ(seen(120 - static_cast<int>(reach_cells) - 2), 255);
+}
+
+TEST(Relief, ProminenceIsHeightAboveTheMeanAround) {
+    const auto hill = make_grid(201, 201, [](int col, int row) {
+        return 500.0 * std::exp(-((col - 100) * (col - 100) + (row - 100) * (row - 100)) / 300.0);
+    });
+    const sim::Relief relief = sim::measure_relief(hill, 2);
+    EXPECT_GT(relief.prominence_m[hill.index(100, 100)], 200.0f);
+    EXPECT_LT(relief.prominence_m[hill.index(100, 130)], 0.0f);
+    EXPECT_NEAR(relief.prominence_m[hill.index(5, 5)], 0.0f, 0.1f);
+}
+
+TEST(Relief, ShoreDistanceGrowsOutToSea) {
+    const auto coast = make_grid(300, 5, [](int col, int) { return col < 280 ? 0.0 : 10.0; });
+    const sim::Relief relief = sim::measure_relief(coast, 1);
+    ASSERT_FALSE(relief.shore.empty());
+    const auto shore = [&](int col) { return int{relief.shore[coast.index(col, 2)]}; };
+    EXPECT_EQ(shore(290), 255);
+    EXPECT_EQ(shore(279), 255);  // not level with its neighbours: the beach
+    EXPECT_EQ(shore(278), 1);
+    EXPECT_EQ(shore(270), 9);
+    EXPECT_EQ(shore(3), 254);
+    EXPECT_TRUE(sim::measure_relief(rough_grid(10, 10), 1).shore.empty());
+}
+
+}  // namespace
