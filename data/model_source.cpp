@@ -2,23 +2,22 @@
 
 #include <assimp/config.h>
 
-#include <bit>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
-#include "data/gzip_file.h"
+#include "data/file_bytes.h"
+#include "data/model_truncation.h"
 
 namespace data {
 
 namespace {
 
-constexpr size_t kMaxUnpacked_bytes = size_t{4} << 30;
-constexpr size_t kHead_bytes = 84;
+constexpr size_t kMaxSize_bytes = size_t{4} << 30;
 
 std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -26,28 +25,6 @@ std::string lower_extension(const std::filesystem::path& path) {
     for (char& letter : extension)
         letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     return extension;
-}
-
-uint32_t little_endian(const std::vector<uint8_t>& head, size_t at) {
-    return static_cast<uint32_t>(head[at] | head[at + 1] << 8 | head[at + 2] << 16) |
-           static_cast<uint32_t>(head[at + 3]) << 24;
-}
-
-/// Formats that state their length are held to it, before anything trusts their counts.
-/// @param size_bytes  of the whole content that `head` begins
-std::optional<std::string> length_problem(const std::vector<uint8_t>& head, uintmax_t size_bytes,
-                                          const std::string& extension) {
-    if (size_bytes == 0) return "empty file";
-    if (extension == "glb") {
-        if (head.size() < 20 || std::memcmp(head.data(), "glTF", 4) != 0) return "not a binary glTF";
-        if (little_endian(head, 8) > size_bytes) return "truncated: shorter than its header says";
-    }
-    if (extension == "stl" && (head.size() < 5 || std::memcmp(head.data(), "solid", 5) != 0)) {
-        if (head.size() < kHead_bytes) return "truncated: shorter than a binary STL's header";
-        if (kHead_bytes + 50u * static_cast<uintmax_t>(little_endian(head, 80)) > size_bytes)
-            return "truncated: fewer facets than its header says";
-    }
-    return std::nullopt;
 }
 
 bool is_finite(const aiVector3D& v) {
@@ -109,6 +86,21 @@ lod::Result<const aiScene*> import(Assimp::Importer& importer, const std::string
     }
 }
 
+/// Sets which kinds of faces each mesh has. Assimp takes faces without corners for polygons, and ends the program
+/// when it then finds nothing to triangulate.
+void correct_face_kinds(const aiScene& scene) {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+        aiMesh& mesh = *scene.mMeshes[i];
+        mesh.mPrimitiveTypes = aiPrimitiveType_POINT;  // 0 would make Assimp look for itself
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const unsigned corners = mesh.mFaces[f].mNumIndices;
+            if (corners == 2) mesh.mPrimitiveTypes |= aiPrimitiveType_LINE;
+            if (corners == 3) mesh.mPrimitiveTypes |= aiPrimitiveType_TRIANGLE;
+            if (corners > 3) mesh.mPrimitiveTypes |= aiPrimitiveType_POLYGON;
+        }
+    }
+}
+
 std::string one_line(std::string text) {
     for (char& letter : text)
         letter = letter == '\n' || letter == '\r' ? ' ' : letter;
@@ -123,21 +115,21 @@ lod::Result<ModelSource> open_model(const std::string& path) {
     model.extension =
         lower_extension(is_packed ? std::filesystem::path(path).stem() : std::filesystem::path(path));
 
-    lod::Result<std::vector<uint8_t>> head =
-        is_packed ? read_gzip_file(path, kMaxUnpacked_bytes) : read_file_head(path, kHead_bytes);
-    if (!head) return head.error();
-    std::error_code failure;
-    const uintmax_t size_bytes = is_packed ? head->size() : std::filesystem::file_size(path, failure);
-    if (const std::optional<std::string> problem = length_problem(*head, size_bytes, model.extension))
+    const lod::Result<std::vector<uint8_t>> content =
+        is_packed ? read_gzip_file(path, kMaxSize_bytes) : read_file(path, kMaxSize_bytes);
+    if (!content) return content.error();
+    const std::string_view text(reinterpret_cast<const char*>(content->data()), content->size());
+    if (const std::optional<std::string> problem = truncation_problem(text, model.extension))
         return lod::Error{path + ": " + *problem};
 
     model.importer = std::make_unique<Assimp::Importer>();
     const lod::Result<const aiScene*> scene =
-        import(*model.importer, path, is_packed ? &*head : nullptr, model.extension);
+        import(*model.importer, path, is_packed ? &*content : nullptr, model.extension);
     if (!scene) return lod::Error{path + ": cannot read the model: " + one_line(scene.message())};
     model.scene = *scene;
     if (const std::optional<std::string> problem = scene_problem(*model.scene))
         return lod::Error{path + ": " + *problem};
+    correct_face_kinds(*model.scene);
     return model;
 }
 

@@ -28,12 +28,13 @@ struct MeshTexture {
 /// One node: its own triangles in its own frame. Nodes are what moves: needles, drums, knobs.
 struct MeshNode {
     std::string name;
-    int32_t parent = -1;                             ///< index of an earlier node, -1 for a root
+    int32_t parent = -1;  ///< index of an earlier node, -1 for a root
     glm::dmat4 parent_from_node{1.0};
-    std::vector<glm::vec3> positions;                ///< [vertices], node frame, metres
-    std::vector<glm::vec3> normals;                  ///< [vertices], unit length, always present
-    std::vector<glm::vec2> uvs;                      ///< [vertices] or empty
-    std::vector<glm::u8vec4> colours;                ///< [vertices]: material, vertex colour and texture baked, sRGB + opacity
+    std::vector<glm::vec3> positions;  ///< [vertices], node frame, metres
+    std::vector<glm::vec3> normals;    ///< [vertices], unit length, always present
+    std::vector<glm::vec2> uvs;        ///< [vertices] or empty
+    std::vector<glm::u8vec4>
+        colours;  ///< [vertices]: material, vertex and texture colour baked, sRGB + opacity
     std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise outside
     std::vector<uint32_t> triangle_material;         ///< [triangles], into PolygonMesh::materials
 };
@@ -48,18 +49,20 @@ struct PolygonMesh {
 
 /// What the reader met.
 struct PolygonMeshStats {
-    uint64_t polygons = 0;             ///< faces in the file
-    uint64_t larger_than_triangles = 0;///< of those, with more than three corners
-    uint64_t dropped_faces = 0;        ///< points, lines, zero area
-    uint64_t missing_textures = 0;     ///< named but unreadable: the material's colour is used
+    uint64_t polygons = 0;               ///< faces in the file
+    uint64_t larger_than_triangles = 0;  ///< of those, with more than three corners
+    uint64_t dropped_faces = 0;          ///< points, lines, triangles with two equal corners
+    uint64_t missing_textures = 0;       ///< images named but unreadable: the material's colour is used
 };
 
 /// Reads a polygon model through Assimp: AC3D, glTF/GLB, OBJ, PLY, STL and whatever else it opens; .gz by zlib.
-/// Node transforms are kept; n-gons are triangulated (n - 2 triangles, also non-convex ones); smooth normals are
-/// made where the file has none. Mesh frame: +z up, front towards -y. Files that are y-up by definition (glTF,
-/// AC3D) get the turn (x, y, z) -> (x, -z, y) in their root nodes' transforms; all others are taken as they are.
-/// Node frames below the roots stay those of the file.
-/// Fails on unreadable or truncated files, NaN vertices and files without a single triangle.
+/// Node transforms are kept; n-gons are triangulated (n - 2 triangles, also non-convex ones). Smooth normals with
+/// creases at 40 degrees are made where the file has none, and for STL, whose facet normals say no more than its
+/// triangles. Corners that agree in everything are one vertex. Mesh frame: +z up, front towards -y. Files that
+/// are y-up by definition (glTF, AC3D) get the turn (x, y, z) -> (x, -z, y) in their root nodes' transforms; all
+/// others are taken as they are. Node frames below the roots stay those of the file.
+/// Fails on unreadable files, on truncated ones where the format tells (data/model_truncation.h), on coordinates
+/// that are not finite and on files without a single triangle.
 lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshStats* stats = nullptr);
 
 /// World-of-the-model transform of every node: parents applied.

@@ -1,4 +1,4 @@
-// Files of bytes: whole, their beginning, or unpacked from gzip.
+// Whole files as bytes, as they are or unpacked from gzip.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace data {
 
-/// At most `max_bytes` from the beginning of a file.
-lod::Result<std::vector<uint8_t>> read_file_head(const std::string& path, size_t max_bytes);
+/// A file's content. Fails when there is none to read or more than `max_bytes`.
+lod::Result<std::vector<uint8_t>> read_file(const std::string& path, size_t max_bytes);
 
 /// The content of a gzip file. Fails when it is damaged, cut short, or larger than `max_bytes`.
 lod::Result<std::vector<uint8_t>> read_gzip_file(const std::string& path, size_t max_bytes);

@@ -1,8 +1,7 @@
-#include "data/gzip_file.h"
+#include "data/file_bytes.h"
 
 #include <zlib.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -40,12 +39,14 @@ int inflate_member(Inflater& inflater, size_t max_bytes, std::vector<uint8_t>& o
 
 }  // namespace
 
-lod::Result<std::vector<uint8_t>> read_file_head(const std::string& path, size_t max_bytes) {
+lod::Result<std::vector<uint8_t>> read_file(const std::string& path, size_t max_bytes) {
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) return lod::Error{path + ": no such file"};
     const uintmax_t size = std::filesystem::file_size(path, failure);
     if (failure) return lod::Error{path + ": " + failure.message()};
-    std::vector<uint8_t> bytes(static_cast<size_t>(std::min<uintmax_t>(size, max_bytes)));
+    if (size > max_bytes)
+        return lod::Error{path + ": too large; expected at most " + std::to_string(max_bytes) + " bytes"};
+    std::vector<uint8_t> bytes(static_cast<size_t>(size));
     std::ifstream file(path, std::ios::binary);
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!file) return lod::Error{path + ": cannot be read"};
@@ -53,7 +54,7 @@ lod::Result<std::vector<uint8_t>> read_file_head(const std::string& path, size_t
 }
 
 lod::Result<std::vector<uint8_t>> read_gzip_file(const std::string& path, size_t max_bytes) {
-    lod::Result<std::vector<uint8_t>> packed = read_file_head(path, std::numeric_limits<unsigned>::max());
+    lod::Result<std::vector<uint8_t>> packed = read_file(path, std::numeric_limits<unsigned>::max());
     if (!packed) return packed;
     Inflater inflater;
     inflater.stream.next_in = packed->data();
