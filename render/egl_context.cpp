@@ -74,11 +74,13 @@ lod::Result<EglContext> EglContext::create() {
 
 EglContext::EglContext(EglContext&& other) noexcept
     : display_(std::exchange(other.display_, EGL_NO_DISPLAY)),
-      context_(std::exchange(other.context_, EGL_NO_CONTEXT)) {}
+      context_(std::exchange(other.context_, EGL_NO_CONTEXT)),
+      glx_absence_(std::move(other.glx_absence_)) {}
 
 EglContext& EglContext::operator=(EglContext&& other) noexcept {
     std::swap(display_, other.display_);
     std::swap(context_, other.context_);
+    std::swap(glx_absence_, other.glx_absence_);
     return *this;
 }
 

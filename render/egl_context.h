@@ -4,6 +4,7 @@
 #include <epoxy/egl.h>
 
 #include "lod/base/result.h"
+#include "render/glx_absence.h"
 
 namespace render {
 
@@ -22,6 +23,7 @@ class EglContext {
     EglContext(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
+    GlxAbsence glx_absence_;
 };
 
 }  // namespace render
