@@ -22,6 +22,7 @@ struct Image {
 /// 8 bits are stretched. Without a datum the pictures' x and y are taken as the grid's, whatever their CRS.
 /// @param max_size_px  the longer side of the result; it is never finer than the finest source
 /// Fails on an unreadable source; a source that does not touch the grid is an error that says both extents.
-lod::Result<Image> read_imagery(const std::vector<std::string>& paths, const HeightGrid& grid, int max_size_px);
+lod::Result<Image> read_imagery(const std::vector<std::string>& paths, const HeightGrid& grid,
+                                int max_size_px);
 
 }  // namespace data
