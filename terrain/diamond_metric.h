@@ -23,7 +23,7 @@ namespace terrain {
 /// One evaluation.
 struct Evaluation {
     Bucket bucket = kHiddenBucket;
-    float error_px = 0.0f;    ///< upper bound; 0 when hidden
+    float error_px = 0.0f;    ///< upper bound; 0 when no eye sees it
     float guard_m = 0.0f;     ///< displacement in the eye frame that keeps the statement true
     float distance_m = 0.0f;  ///< from the nearest eye to the centre
 };
@@ -89,6 +89,7 @@ inline DepthError depth_error(const AnchoredEye& eye, const DiamondBound& bound,
 inline Evaluation evaluate(const DiamondBound& bound, std::span<const AnchoredEye> eyes,
                            const BucketScale& scale, Watch watch) {
     constexpr float kFar = 1e30f;
+    Evaluation result;
     float worst_px = -1.0f;  // negative: no eye sees it
     float hidden_m = kFar;   // how far it must move until one more eye sees it
     float seen_m = -1.0f;    // how far until the last eye has lost it
@@ -106,10 +107,12 @@ inline Evaluation evaluate(const DiamondBound& bound, std::span<const AnchoredEy
         seen_m = std::max(seen_m, margin - outside);
         const DepthError here = depth_error(eye, bound, centre, distance);
         worst_px = std::max(worst_px, here.error_px);
+        if (outside <= 0.0f) result.error_px = std::max(result.error_px, here.error_px);
         depth = std::min(depth, here.depth_m);
         step = std::min(step, here.step_m);
     }
-    Evaluation result{kHiddenBucket, 0.0f, hidden_m, nearest};
+    result.guard_m = hidden_m;
+    result.distance_m = nearest;
     if (worst_px < 0.0f) return result;
     const bool watches_fall = watch == Watch::kRiseAndFall;
     if (bound.error_m == 0.0f) {  // stays 0 whatever the eye does, until it is out of view
@@ -118,12 +121,13 @@ inline Evaluation evaluate(const DiamondBound& bound, std::span<const AnchoredEy
         return result;
     }
     worst_px = std::max(worst_px, 1e-30f);
-    result.bucket = scale.bucket_of(worst_px);
+    const float shown_px = worst_px * (1.0f + kEdgeMargin);
+    result.bucket = scale.bucket_of(shown_px);
     float guard =
-        std::min(depth * (1.0f - worst_px / scale.upper_px(result.bucket)) * (1.0f / 3.0f), hidden_m);
+        std::min({step * (1.0f - worst_px / scale.upper_px(result.bucket)), 0.06f * depth, hidden_m});
     if (watches_fall) {
-        guard = std::min(
-            {guard, seen_m, depth * (1.0f - scale.lower_px(result.bucket) / worst_px) * (1.0f / 3.0f)});
+        const float fall = 1.0f - (1.0f - kEdgeMargin) * scale.lower_px(result.bucket) / shown_px;
+        guard = std::min({guard, seen_m, step * fall});
     }
     result.guard_m = std::max(guard, 0.0f);
     return result;

@@ -215,7 +215,7 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double) {
         prune();
     }
     for (DiamondIndex index : due_) {
-        if (ranks_[index].queue != Queue::kNone && ranks_[index].stamp != stamp_) refresh(index);
+        if (ranks_[index].queue != Queue::kNone) refresh(index);
     }
 }
 
@@ -415,8 +415,9 @@ std::string RoamFront::validate() const {
         queued += expected != Queue::kNone ? 1 : 0;
         if (expected == Queue::kNone || eyes_.empty()) continue;
         const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
-        if (now.bucket > ranks_[i].bucket)
+        if (now.error_px > scale_.upper_px(ranks_[i].bucket)) {
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
+        }
     }
     uint64_t linked = 0;
     for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
