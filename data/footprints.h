@@ -26,12 +26,13 @@ struct Footprint {
 
 /// What the reader met, for the report.
 struct FootprintStats {
-    uint64_t read = 0;  ///< features with a building's area
-    uint64_t kept = 0;
-    uint64_t repaired = 0;  ///< invalid rings made valid
-    uint64_t skipped = 0;   ///< beyond repair, or without area
-    uint64_t courtyards = 0;
-    uint64_t with_height = 0, with_levels = 0, by_default = 0;
+    uint64_t read = 0;                          ///< features with a building's area
+    uint64_t kept = 0;                          ///< of those, with at least one footprint
+    uint64_t repaired = 0;                      ///< invalid rings made valid
+    uint64_t skipped = 0;                       ///< beyond repair, or without area
+    uint64_t courtyards = 0;                    ///< of the buildings kept
+    uint64_t with_height = 0, with_levels = 0;  ///< of those kept, with a usable one; some have both
+    uint64_t by_default = 0;                    ///< of those kept, with neither
 };
 
 struct Footprints {
@@ -45,10 +46,13 @@ struct FootprintOptions {
 };
 
 /// Reads building footprints from anything OGR opens: OSM pbf and xml (areas with a `building` tag other than
-/// `no`), Shapefile, GeoPackage, GeoJSON, CityJSON's footprint where OGR offers it (all polygons). Heights from
-/// `height`, `building:height`, `building:levels` (units m, ft and ' understood), else the default. Rings are
-/// taken to site coordinates of `world` (WGS84 longitude/latitude, or untouched without a datum).
-/// Fails on an unreadable file and on one that has no polygon layer.
+/// `no`), Shapefile, GeoPackage, GeoJSON, CityJSON's footprint where OGR offers it (all polygons; where there is a
+/// `building` column, those it says something other than `no` for). Heights from `height`, `building:height`,
+/// `building:levels` (units m, ft and ' understood), also inside `other_tags`, else the default. Rings are taken to
+/// site coordinates of `world` (WGS84 longitude/latitude, or untouched without a datum); the parts of a
+/// multipolygon are buildings of their own with the same id.
+/// Fails on an unreadable or truncated file, on one that has no polygon layer, and on coordinates that are not
+/// degrees and have no CRS while the world has a datum.
 lod::Result<Footprints> read_footprints(const std::string& path, const WorldFrame& world,
                                         const FootprintOptions& options);
 
