@@ -37,10 +37,6 @@ double wrapped_longitude(double degrees) {
     return std::remainder(degrees, 360.0);
 }
 
-double or_derived(double recorded, double derived) {
-    return std::isfinite(recorded) ? recorded : derived;
-}
-
 /// Copies an angle of the fixes where any of them records it, gaps taking the value before (at the start, after)
 /// them. @returns whether it was recorded
 bool take_recorded(const std::vector<MotionFix>& fixes, double MotionFix::*from, double MotionSample::*to,
