@@ -1,6 +1,7 @@
 // triangulate of footprint_shape.h.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "data/footprint_shape.h"
@@ -48,10 +49,41 @@ class PointIndex {
     std::vector<bool> is_used_;
 };
 
-}  // namespace
+/// `point` lies between a and b on their segment, ends excluded.
+bool is_on_edge(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& b) {
+    constexpr double kTouch_m = 1e-9;
+    const glm::dvec2 edge = b - a, way = point - a;
+    const double length_m = glm::length(edge), along_m = glm::dot(way, edge) / length_m;
+    const double off_m = std::abs(edge.x * way.y - edge.y * way.x) / length_m;
+    return off_m <= kTouch_m && along_m > kTouch_m && along_m < length_m - kTouch_m;
+}
 
-Triangles triangulate(GEOSContextHandle_t context, const RingPolygon& polygon) {
-    const GeosGeometryPtr geometry = geos_from_polygon(context, polygon);
+/// The polygon with the corners of each ring that touch another ring's edge made points of that ring too.
+RingPolygon with_touching_points(const RingPolygon& polygon) {
+    RingPolygon result;
+    for (const std::vector<glm::dvec2>& ring : polygon.rings) {
+        std::vector<glm::dvec2>& noded = result.rings.emplace_back();
+        for (size_t i = 0; i < ring.size(); ++i) {
+            const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+            std::vector<glm::dvec2> touching;
+            for (const std::vector<glm::dvec2>& other : polygon.rings) {
+                std::copy_if(other.begin(), other.end(), std::back_inserter(touching),
+                             [&](const glm::dvec2& point) { return is_on_edge(point, a, b); });
+            }
+            std::sort(touching.begin(), touching.end(), [a](const glm::dvec2& p, const glm::dvec2& q) {
+                return glm::distance(a, p) < glm::distance(a, q);
+            });
+            touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+            noded.push_back(a);
+            noded.insert(noded.end(), touching.begin(), touching.end());
+        }
+    }
+    return result;
+}
+
+/// The triangles GEOS makes of `traced`, on the points of `polygon`, which has the same area.
+Triangles triangles_of(GEOSContextHandle_t context, const RingPolygon& polygon, const RingPolygon& traced) {
+    const GeosGeometryPtr geometry = geos_from_polygon(context, traced);
     if (!geometry) return {};
     const GeosGeometryPtr cover(GEOSConstrainedDelaunayTriangulation_r(context, geometry.get()),
                                 GeosGeometryCloser{context});
@@ -74,6 +106,15 @@ Triangles triangulate(GEOSContextHandle_t context, const RingPolygon& polygon) {
     }
     const double area_m2 = area_of(polygon);
     if (std::abs(covered_m2 - area_m2) > 1e-9 * area_m2 || !points.all_used()) return {};
+    return triangles;
+}
+
+}  // namespace
+
+Triangles triangulate(GEOSContextHandle_t context, const RingPolygon& polygon) {
+    Triangles triangles = triangles_of(context, polygon, polygon);
+    // GEOS loses its way where a corner of one ring touches the middle of another's edge.
+    if (triangles.empty()) triangles = triangles_of(context, polygon, with_touching_points(polygon));
     return triangles;
 }
 
