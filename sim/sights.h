@@ -14,7 +14,7 @@ struct Sight {
     Shot shot;
 };
 
-/// Ridge (the scene's start), town (if there are buildings), panel (if there are instruments) and horizon (from high
+/// Ridge (a mountain side in the sun), town (if there are buildings), panel (if there are instruments) and horizon (from high
 /// on the path, instruments in view). `middle_s` is the time of the last two.
 std::vector<Sight> find_sights(const World& world, double middle_s);
 

@@ -66,8 +66,7 @@ void DiamondMesh::free_record(DiamondIndex index) {
 }
 
 /// The diamond across a side of a split diamond, at the same level, and its side that faces back.
-DiamondIndex DiamondMesh::neighbour(DiamondIndex index, int side, int& neighbour_side) const {
-    const Diamond& d = diamonds_[index];
+DiamondIndex DiamondMesh::neighbour(const Diamond& d, int side, int& neighbour_side) const {
     const int which = kSharedParent[side];
     const DiamondIndex parent = d.parent[which];
     if (!is_record(parent) || parent < kCornerCount) return kOutside;
@@ -83,58 +82,68 @@ DiamondIndex DiamondMesh::missing_parent(DiamondIndex index) const {
     for (int which = 0; which < 2; ++which) {
         if (d.parent[which] != kUnsplit) continue;
         int side = 0;
-        return neighbour(d.parent[1 - which], d.slot(1 - which), side);
+        return neighbour(diamonds_[d.parent[1 - which]], d.slot(1 - which), side);
     }
     return kOutside;
 }
 
-/// The child on a side: the one its other parent already has, or a new record.
-DiamondIndex DiamondMesh::make_child(DiamondIndex index, int side) {
-    const Diamond parent = diamonds_[index];
+/// The other parent already has this child: ties the new one in.
+DiamondIndex DiamondMesh::share_child(DiamondIndex index, int side, DiamondIndex other, int other_side) {
+    const DiamondIndex shared = kids_[diamonds_[other].kids][static_cast<size_t>(other_side)];
+    Diamond& c = diamonds_[shared];
+    const int free_place = c.parent[0] == other ? 1 : 0;
+    c.parent[free_place] = index;
+    c.set_slot(free_place, side);
+    return shared;
+}
+
+/// A new record for the child on a side of `parent`; kOutside where that is beyond the domain.
+DiamondIndex DiamondMesh::make_child(const Diamond& parent, DiamondIndex index, int side) {
     const int direction = (parent.apex_dir + 2 * side + 1) & 7;
     const GridPoint centre = step_from(parent.centre(), direction, domain_.child_step(parent.level));
     if (!domain_.contains(centre)) return kOutside;
-    int other_side = 0;
-    const DiamondIndex other = neighbour(index, side, other_side);
-    if (is_record(other) && diamonds_[other].is_split) {
-        const DiamondIndex shared = child(other, other_side);
-        Diamond& c = diamonds_[shared];
-        const int free_place = c.parent[0] == other ? 1 : 0;
-        c.parent[free_place] = index;
-        c.set_slot(free_place, side);
-        return shared;
-    }
     const DiamondIndex made = make_record(centre, parent.level + 1);
     Diamond& c = diamonds_[made];
     c.apex_dir = static_cast<uint16_t>(direction + 4) & 7;
     c.parent[0] = index;
-    c.set_slot(0, side);
+    c.slot0 = side & 3;
     const GridPoint beyond = step_from(centre, direction, domain_.reach(c.level));
     c.parent[1] = domain_.contains(beyond) ? kUnsplit : kOutside;
     return made;
+}
+
+uint32_t DiamondMesh::make_kids(DiamondIndex index, SplitOutcome& outcome) {
+    uint32_t block;
+    if (free_kids_.empty()) {
+        block = static_cast<uint32_t>(kids_.size());
+        kids_.emplace_back();
+    } else {
+        block = free_kids_.back();
+        free_kids_.pop_back();
+    }
+    const Diamond parent = diamonds_[index];
+    std::array<DiamondIndex, 4> kids;
+    for (int side = 0; side < 4; ++side) {
+        int other_side = 0;
+        const DiamondIndex other = neighbour(parent, side, other_side);
+        DiamondIndex& kid = kids[static_cast<size_t>(side)];
+        if (other != kOutside && diamonds_[other].is_split) {
+            kid = share_child(index, side, other, other_side);
+        } else {
+            kid = make_child(parent, index, side);
+            if (kid != kOutside) outcome.created[outcome.created_count++] = kid;
+        }
+    }
+    kids_[block] = kids;
+    return block;
 }
 
 SplitOutcome DiamondMesh::split(DiamondIndex index) {
     SplitOutcome outcome;
     DCHECK(diamonds_[index].is_used && !diamonds_[index].is_split);
     if (diamonds_[index].level < domain_.finest_level()) {
-        uint32_t block;
-        if (free_kids_.empty()) {
-            block = static_cast<uint32_t>(kids_.size());
-            kids_.emplace_back();
-        } else {
-            block = free_kids_.back();
-            free_kids_.pop_back();
-        }
-        for (int side = 0; side < 4; ++side) {
-            const DiamondIndex made = make_child(index, side);
-            kids_[block][static_cast<size_t>(side)] = made;
-            if (is_record(made) &&
-                !(is_record(diamonds_[made].parent[0]) && is_record(diamonds_[made].parent[1]))) {
-                outcome.created[outcome.created_count++] = made;
-            }
-        }
-        diamonds_[index].kids = block;
+        const uint32_t block = make_kids(index, outcome);
+        diamonds_[index].kids = block;  // the records may have moved
     }
     Diamond& d = diamonds_[index];
     d.is_split = true;

@@ -109,8 +109,10 @@ class DiamondMesh {
   private:
     DiamondIndex make_record(GridPoint centre, int level);
     void free_record(DiamondIndex index);
-    DiamondIndex neighbour(DiamondIndex index, int side, int& neighbour_side) const;
-    DiamondIndex make_child(DiamondIndex index, int side);
+    DiamondIndex neighbour(const Diamond& d, int side, int& neighbour_side) const;
+    DiamondIndex share_child(DiamondIndex index, int side, DiamondIndex other, int other_side);
+    DiamondIndex make_child(const Diamond& parent, DiamondIndex index, int side);
+    uint32_t make_kids(DiamondIndex index, SplitOutcome& outcome);
     bool drop_child(DiamondIndex child_index, DiamondIndex parent_index);
 
     Domain domain_;

@@ -88,13 +88,11 @@ void RoamFront::rank(DiamondIndex index, Watch watch) {
     const Evaluation now = evaluate_now(index, watch);
     ranks_[index].bucket = now.bucket;
     ranks_[index].stamp = stamp_;
-    // The guard is shared out between walking and turning in the proportion of this frame's motion.
-    const double turned_m = step_rad_ * double(now.distance_m);
-    const double walk_share = std::clamp(step_m_ / (step_m_ + turned_m + 1e-30), 0.1, 0.9);
-    const double walk_m = double(now.guard_m) * walk_share;
-    const double turn_rad = (double(now.guard_m) - walk_m) / (double(now.distance_m) + walk_m + 1e-6);
-    wake_m_[index] = static_cast<float>((odometer_m_ + walk_m) * (1.0 - 1e-6));
-    wake_rad_[index] = static_cast<float>((odometer_rad_ + turn_rad) * (1.0 - 1e-6));
+    // The guard is shared out between walking and turning as this frame's motion is.
+    const float walk_m = now.guard_m * walk_share_;
+    const float turn_rad = (now.guard_m - walk_m) / (now.distance_m + walk_m + 1e-6f);
+    wake_m_[index] = (walked_m_ + walk_m) * (1.0f - 0x1p-20f);
+    wake_rad_[index] = (turned_rad_ + turn_rad) * (1.0f - 0x1p-20f);
 }
 
 void RoamFront::enqueue(DiamondIndex index, Queue queue) {
@@ -134,7 +132,7 @@ void RoamFront::admit(DiamondIndex index) {
 void RoamFront::advance_odometers(std::span<const lod::View> views) {
     bool is_comparable = views.size() == eyes_.size();
     std::vector<AnchoredEye>& eyes = eyes_;
-    step_m_ = step_rad_ = 0.0;
+    double step_m = 0.0, step_rad = 0.0;
     for (size_t i = 0; i < views.size(); ++i) {
         const AnchoredEye now(views[i], bound_of_.anchor_world());
         if (i < eyes.size()) {
@@ -142,15 +140,19 @@ void RoamFront::advance_odometers(std::span<const lod::View> views) {
             is_comparable = is_comparable && then.lambda_px == now.metric.lambda_px &&
                             then.tan_x == now.metric.tan_x && then.tan_y == now.metric.tan_y &&
                             then.near_m == now.metric.near_m;
-            step_m_ = std::max(step_m_, glm::length(now.eye - eyes[i].eye));
-            step_rad_ = std::max(step_rad_, rotation_chord(now.metric.eye_from_world, then.eye_from_world));
+            step_m = std::max(step_m, glm::length(now.eye - eyes[i].eye));
+            step_rad = std::max(step_rad, rotation_chord(now.metric.eye_from_world, then.eye_from_world));
         }
     }
     eyes.clear();
     for (const lod::View& view : views)
         eyes.emplace_back(view, bound_of_.anchor_world());
-    odometer_m_ += step_m_;
-    odometer_rad_ += step_rad_;
+    odometer_m_ += step_m;
+    odometer_rad_ += step_rad;
+    // At the distance where turning moves a point as far as walking does, both get one half.
+    constexpr double kTypicalDistance_m = 2000.0;
+    walk_share_ =
+        static_cast<float>(std::clamp(step_m / (step_m + kTypicalDistance_m * step_rad + 1e-30), 0.1, 0.9));
     if (is_comparable && odometer_m_ < kOdometerLimit_m && odometer_rad_ < kOdometerLimit_m) return;
     // Other optics, or the odometers are full: start again. What sleeps keeps the rest of its guard, unless
     // the optics changed: then everything wakes.
@@ -167,7 +169,7 @@ void RoamFront::advance_odometers(std::span<const lod::View> views) {
 void RoamFront::collect_due() {
     constexpr size_t kBlock = 64;
     due_.clear();
-    const float walked = static_cast<float>(odometer_m_), turned = static_cast<float>(odometer_rad_);
+    const float walked = walked_m_, turned = turned_rad_;
     const size_t count = mesh_.record_count();
     for (size_t begin = 0; begin < count; begin += kBlock) {
         const size_t end = std::min(count, begin + kBlock);
@@ -208,6 +210,8 @@ void RoamFront::prune() {
 void RoamFront::begin_frame(std::span<const lod::View> views, double) {
     CHECK(!views.empty());
     advance_odometers(views);
+    walked_m_ = static_cast<float>(odometer_m_);
+    turned_rad_ = static_cast<float>(odometer_rad_);
     ++stamp_;
     tessellator_.begin_frame();
     collect_due();

@@ -106,7 +106,8 @@ class RoamFront final : public lod::Front {
 
     std::vector<AnchoredEye> eyes_;
     double odometer_m_ = 0.0, odometer_rad_ = 0.0;
-    double step_m_ = 0.0, step_rad_ = 0.0;  ///< this frame's motion
+    float walked_m_ = 0.0f, turned_rad_ = 0.0f;  ///< the odometers as the records see them
+    float walk_share_ = 0.5f;                    ///< of a guard, kept for walking; the rest for turning
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
 

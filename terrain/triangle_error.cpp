@@ -18,6 +18,16 @@ float with_rounding(float residual, float scale) {
     return residual == 0.0f ? 0.0f : residual + scale * kRoundingShare;
 }
 
+/// max_residual; rows too short for a vector stay here, without a call.
+inline float row_residual(const float* samples, int count, float first, float gradient) {
+    if (count >= kLaneCount) return max_residual(samples, count, first, gradient);
+    float worst = 0.0f;
+    for (int i = 0; i < count; ++i) {
+        worst = std::max(worst, std::abs(samples[i] - (first + gradient * static_cast<float>(i))));
+    }
+    return worst;
+}
+
 /// Rows of a triangle with any corners on the grid: for each y the range of x inside or on the border.
 class RowSpans {
   public:
@@ -66,7 +76,7 @@ float legs_on_axes(const data::HeightGrid& grid, const TriangleCorners& t, float
         const int x = sx > 0 ? t.apex.x : t.apex.x - (n - row);
         const float first =
             apex_m + gy * static_cast<float>(sy * row) + gx * static_cast<float>(x - t.apex.x);
-        worst = std::max(worst, max_residual(&grid.height_m[grid.index(x, y)], n - row + 1, first, gx));
+        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], n - row + 1, first, gx));
     }
     return worst;
 }
@@ -86,7 +96,7 @@ float hypotenuse_on_axis(const data::HeightGrid& grid, const TriangleCorners& t,
         const int count = along_x ? 2 * reach + 1 : reach + 1;
         const float first =
             apex_m + gy * static_cast<float>(y - t.apex.y) + gx * static_cast<float>(x - t.apex.x);
-        worst = std::max(worst, max_residual(&grid.height_m[grid.index(x, y)], count, first, gx));
+        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], count, first, gx));
     }
     return worst;
 }
@@ -159,7 +169,7 @@ TriangleError clamped_triangle_error(const data::HeightGrid& grid, const Domain&
         int x = 0, x_last = 0;
         if (!rows.span(y, x, x_last)) continue;
         const double first = ha + gx * (x - a.x) + gy * (y - a.y);
-        worst = std::max(worst, max_residual(&grid.height_m[grid.index(x, y)], x_last - x + 1,
+        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], x_last - x + 1,
                                              static_cast<float>(first), static_cast<float>(gx)));
     }
     // The gradient itself is rounded here: up to 2^-24 of it for every cell of the widest row.
