@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "lod/base/check.h"
-#include "terrain/validate.h"
 
 namespace terrain {
 namespace {
@@ -131,22 +130,21 @@ void RoamFront::admit(DiamondIndex index) {
 
 void RoamFront::advance_odometers(std::span<const lod::View> views) {
     bool is_comparable = views.size() == eyes_.size();
-    std::vector<AnchoredEye>& eyes = eyes_;
     double step_m = 0.0, step_rad = 0.0;
     for (size_t i = 0; i < views.size(); ++i) {
         const AnchoredEye now(views[i], bound_of_.anchor_world());
-        if (i < eyes.size()) {
-            const lod::ViewMetric& then = eyes[i].metric;
+        if (i < eyes_.size()) {
+            const lod::ViewMetric& then = eyes_[i].metric;
             is_comparable = is_comparable && then.lambda_px == now.metric.lambda_px &&
                             then.tan_x == now.metric.tan_x && then.tan_y == now.metric.tan_y &&
                             then.near_m == now.metric.near_m;
-            step_m = std::max(step_m, glm::length(now.eye - eyes[i].eye));
+            step_m = std::max(step_m, glm::length(now.eye - eyes_[i].eye));
             step_rad = std::max(step_rad, rotation_chord(now.metric.eye_from_world, then.eye_from_world));
         }
     }
-    eyes.clear();
+    eyes_.clear();
     for (const lod::View& view : views)
-        eyes.emplace_back(view, bound_of_.anchor_world());
+        eyes_.emplace_back(view, bound_of_.anchor_world());
     odometer_m_ += step_m;
     odometer_rad_ += step_rad;
     // At the distance where turning moves a point as far as walking does, both get one half.
@@ -403,38 +401,6 @@ uint64_t RoamFront::memory_bytes() const {
         sizeof(Diamond) + sizeof(DiamondBound) + sizeof(BucketLink) + sizeof(Rank) + 2 * sizeof(float);
     const uint64_t split = (mesh_.triangles() - 2) / 2;
     return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
-}
-
-std::string RoamFront::validate() const {
-    std::string fault = validate_mesh(mesh_);
-    if (!fault.empty()) return fault;
-    uint64_t queued = 0;
-    for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
-        const Diamond& d = mesh_[i];
-        const Queue expected = !d.is_used          ? Queue::kNone
-                               : !d.is_split       ? Queue::kSplit
-                               : d.split_kids == 0 ? Queue::kMerge
-                                                   : Queue::kNone;
-        if (ranks_[i].queue != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
-        queued += expected != Queue::kNone ? 1 : 0;
-        if (expected == Queue::kNone || eyes_.empty()) continue;
-        const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
-        if (now.error_px > scale_.upper_px(ranks_[i].bucket)) {
-            return "diamond " + std::to_string(i) + " is worse than its bucket says";
-        }
-    }
-    uint64_t linked = 0;
-    for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
-        for (uint32_t b = 0; b < kBucketCount; ++b) {
-            for (uint32_t i = queue->head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
-                 i = ranks_[i].link.next) {
-                if (ranks_[i].bucket != b)
-                    return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
-                if (++linked > queued) return "a queue has a loop or a stray record";
-            }
-        }
-    }
-    return linked == queued ? "" : "a queue has lost a record";
 }
 
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {

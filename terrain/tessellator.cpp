@@ -2,89 +2,39 @@
 
 #include "lod/base/check.h"
 #include "terrain/diamond_metric.h"
+#include "terrain/leaf_cover.h"
 
 namespace terrain {
 namespace {
 
 constexpr uint32_t kPageSize = 64;  ///< vertices written together, 2 KiB
 
-/// Whether a subtree may be in view; once fully inside, its children need no test.
-enum class Sight : uint8_t { kUnknown, kInside };
+/// Leaves what one view cannot see, writes the rest as indices.
+struct IndexWriter {
+    /// Whether a subtree may be in view; once fully inside, its children need no test.
+    enum class State : uint8_t { kUnknown, kInside };
 
-/// The walk over one view: recursion depth is at most 2 log2(side) + 1.
-struct Walk {
     const TessellationInput& input;
-    AnchoredEye eye;
+    const AnchoredEye& eye;
+    LeafCover cover;
     std::vector<uint32_t>& indices;
-    bool has_voids;
 
-    /// Sphere against the frustum: outside, crossing or inside.
-    bool is_visible(DiamondIndex index, Sight& sight) const {
-        if (sight == Sight::kInside) return true;
+    bool enter(DiamondIndex index, State& state) const {
+        if (state == State::kInside) return true;
         const Diamond& d = input.mesh[index];
         const DiamondBound bound = input.bound_of(d, input.table.at(d.centre(), d.level));
         const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), bound.radius_m);
         if (outside > 0.0f) return false;
-        if (outside < -2.0f * bound.radius_m) sight = Sight::kInside;
+        if (outside < -2.0f * bound.radius_m) state = State::kInside;
         return true;
     }
 
-    /// A leaf triangle of level 0 … finest that covers no valid sample.
-    bool is_hole(const Diamond& d, int half) const {
-        if (!has_voids) return false;
-        const int dir = (d.apex_dir + 4 * half) & 7;
-        return (input.table.empty_halves[input.table.index(d.centre(), d.level)] >> half_bit(dir) & 1) != 0;
-    }
-
-    bool is_squeezed(GridPoint a, GridPoint b, GridPoint c) const {
-        const Domain& domain = input.mesh.domain();
-        if (domain.in_raster(a) && domain.in_raster(b) && domain.in_raster(c)) return false;
-        a = domain.clamped(a);
-        b = domain.clamped(b);
-        c = domain.clamped(c);
-        return int64_t(b.x - a.x) * (c.y - a.y) == int64_t(c.x - a.x) * (b.y - a.y);
-    }
-
-    GridPoint at(DiamondIndex index) const { return input.mesh[index].centre(); }
-
     /// Counter-clockwise seen from above: rows run south, so left and right change places.
-    void leaf(DiamondIndex apex, DiamondIndex left, DiamondIndex right) const {
-        indices.push_back(apex);
-        indices.push_back(right);
-        indices.push_back(left);
-    }
-
-    /// The triangle (apex; left, right) whose hypotenuse has the middle `index`; half: which parent is the apex.
-    void triangle(DiamondIndex index, int half, DiamondIndex left, DiamondIndex right, Sight sight) const {
-        const Diamond& d = input.mesh[index];
-        if (!is_visible(index, sight)) return;
-        const DiamondIndex apex = d.parent[half];
-        if (!d.is_split) {
-            if (!is_squeezed(at(apex), at(left), at(right)) && !is_hole(d, half)) leaf(apex, left, right);
-            return;
-        }
-        // C1 is on the left of C0 seen from the centre; sides 0 and 3 belong to apex C0, 1 and 2 to C2.
-        const int first = half == 0 ? 0 : 2, second = half == 0 ? 3 : 1;
-        finer(index, first, apex, left, sight);
-        finer(index, second, right, apex, sight);
-    }
-
-    /// The half of a split triangle behind one side: its apex is the diamond just split.
-    void finer(DiamondIndex index, int side, DiamondIndex from, DiamondIndex to, Sight sight) const {
-        const DiamondIndex child = input.mesh.child(index, side);
-        if (child == kOutside) {  // finest level: cells' halves, drawn unless a corner is void
-            const GridPoint a = at(index), b = at(from), c = at(to);
-            if (is_squeezed(a, b, c) || (has_voids && (is_void(a) || is_void(b) || is_void(c)))) return;
-            leaf(index, from, to);
-            return;
-        }
-        const int half = input.mesh[child].parent[0] == index ? 0 : 1;
-        triangle(child, half, from, to, sight);
-    }
-
-    bool is_void(GridPoint p) const {
-        p = input.mesh.domain().clamped(p);
-        return input.grid.void_at(p.x, p.y);
+    void leaf(const Leaf& leaf, const Diamond* diamond, int half) const {
+        if (!cover.is_drawn(leaf, diamond, half)) return;
+        indices.push_back(leaf.apex);
+        indices.push_back(leaf.right);
+        indices.push_back(leaf.left);
     }
 };
 
@@ -155,15 +105,8 @@ void Tessellator::emit(const TessellationInput& input, const lod::View& view, lo
     }
     const size_t first = indices_.size();
     const AnchoredEye eye(view, input.bound_of.anchor_world());
-    const Walk walk{input, eye, indices_, input.grid.has_voids()};
-    const Diamond& root = input.mesh[kRoot];
-    // Domain corners: 0 (0,0), 1 (side,0), 2 (0,side), 3 (side,side).
-    for (int half = 0; half < 2; ++half) {
-        const GridPoint left =
-            step_from(root.centre(), root.apex_dir + 4 * half + 2, input.mesh.domain().reach(0));
-        const DiamondIndex left_index = (left.x == 0 ? 0u : 1u) + (left.y == 0 ? 0u : 2u);
-        walk.triangle(kRoot, half, left_index, 3u - left_index, Sight::kUnknown);
-    }
+    IndexWriter writer{input, eye, {input.grid, input.table, input.mesh}, indices_};
+    LeafWalk(input.mesh, writer).run(IndexWriter::State::kUnknown);
     emitted_ = (indices_.size() - first) / 3;
     CHECK(indices_.size() <= region_.index_capacity);
     if (emitted_ == 0) return;

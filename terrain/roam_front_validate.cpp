@@ -1,0 +1,41 @@
+// RoamFront::validate: the mesh, the queues and every sleeping diamond's promise, checked against a fresh look.
+#include <string>
+
+#include "terrain/roam_front.h"
+#include "terrain/validate.h"
+
+namespace terrain {
+
+std::string RoamFront::validate() const {
+    std::string fault = validate_mesh(mesh_);
+    if (!fault.empty()) return fault;
+    uint64_t queued = 0;
+    for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
+        const Diamond& d = mesh_[i];
+        const Queue expected = !d.is_used          ? Queue::kNone
+                               : !d.is_split       ? Queue::kSplit
+                               : d.split_kids == 0 ? Queue::kMerge
+                                                   : Queue::kNone;
+        if (ranks_[i].queue != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
+        queued += expected != Queue::kNone ? 1 : 0;
+        if (expected == Queue::kNone || eyes_.empty()) continue;
+        const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
+        if (now.error_px > scale_.upper_px(ranks_[i].bucket)) {
+            return "diamond " + std::to_string(i) + " is worse than its bucket says";
+        }
+    }
+    uint64_t linked = 0;
+    for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
+        for (uint32_t b = 0; b < kBucketCount; ++b) {
+            for (uint32_t i = queue->head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
+                 i = ranks_[i].link.next) {
+                if (ranks_[i].bucket != b)
+                    return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
+                if (++linked > queued) return "a queue has a loop or a stray record";
+            }
+        }
+    }
+    return linked == queued ? "" : "a queue has lost a record";
+}
+
+}  // namespace terrain
