@@ -78,8 +78,10 @@ struct Collector {
 }  // namespace
 
 ExtractedMesh extract(const data::HeightGrid& grid, double max_error_m, unsigned threads) {
-    // The same heights in a plane: errors without the Earth's curvature.
-    data::HeightGrid plane = data::make_planar_grid(grid.width, grid.height, 1.0, grid.height_m);
+    // The same heights in a plane: errors without the Earth's curvature. Cells as wide as this make the rim of a
+    // hole, whose error is the length of its triangles, exact at any tolerance.
+    constexpr double kSpacing_m = 1e5;
+    data::HeightGrid plane = data::make_planar_grid(grid.width, grid.height, kSpacing_m, grid.height_m);
     plane.is_void = grid.is_void;
     const DiamondTable table = make_diamond_table(plane, threads);
     DiamondMesh mesh(table.domain);

@@ -388,19 +388,8 @@ lod::PoolRegion RoamFront::pool_need() const {
     return Tessellator::need(triangles, static_cast<uint32_t>(records));
 }
 
-void RoamFront::place(const lod::PoolRegion& region) {
-    tessellator_.place(region);
-}
-
 void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
     tessellator_.emit({grid_, table_, mesh_, bound_of_}, view, out);
-}
-
-uint64_t RoamFront::memory_bytes() const {
-    const uint64_t record =
-        sizeof(Diamond) + sizeof(DiamondBound) + sizeof(BucketLink) + sizeof(Rank) + 2 * sizeof(float);
-    const uint64_t split = (mesh_.triangles() - 2) / 2;
-    return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
 }
 
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {

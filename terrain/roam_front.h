@@ -50,7 +50,7 @@ class RoamFront final : public lod::Front {
     lod::OperationCounts operations() const override { return operations_; }
     uint64_t hash() const override { return mesh_.hash(); }
     lod::PoolRegion pool_need() const override;
-    void place(const lod::PoolRegion& region) override;
+    void place(const lod::PoolRegion& region) override { tessellator_.place(region); }
     void emit(const lod::View& view, lod::DrawList& out) override;
     uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
     std::string validate() const override;

@@ -1,4 +1,4 @@
-// RoamFront::validate: the mesh, the queues and every sleeping diamond's promise, checked against a fresh look.
+// RoamFront's accounts: memory, and validate(): the mesh, the queues and every sleeping diamond's promise, checked against a fresh look.
 #include <string>
 
 #include "terrain/roam_front.h"
@@ -36,6 +36,13 @@ std::string RoamFront::validate() const {
         }
     }
     return linked == queued ? "" : "a queue has lost a record";
+}
+
+uint64_t RoamFront::memory_bytes() const {
+    const uint64_t record =
+        sizeof(Diamond) + sizeof(DiamondBound) + sizeof(BucketLink) + sizeof(Rank) + 2 * sizeof(float);
+    const uint64_t split = (mesh_.triangles() - 2) / 2;
+    return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
 }
 
 }  // namespace terrain
