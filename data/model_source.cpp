@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/ac3d_places.h"
 #include "data/file_bytes.h"
 #include "data/model_truncation.h"
 
@@ -101,6 +102,13 @@ void correct_face_kinds(const aiScene& scene) {
     }
 }
 
+size_t count_nodes(const aiNode& node) {
+    size_t count = 1;
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        count += count_nodes(*node.mChildren[i]);
+    return count;
+}
+
 std::string one_line(std::string text) {
     for (char& letter : text)
         letter = letter == '\n' || letter == '\r' ? ' ' : letter;
@@ -130,6 +138,8 @@ lod::Result<ModelSource> open_model(const std::string& path) {
     if (const std::optional<std::string> problem = scene_problem(*model.scene))
         return lod::Error{path + ": " + *problem};
     correct_face_kinds(*model.scene);
+    if (is_ac3d(model.extension)) model.node_shifts = ac3d_places(text);
+    if (model.node_shifts.size() != count_nodes(*model.scene->mRootNode)) model.node_shifts.clear();
     return model;
 }
 

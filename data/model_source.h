@@ -4,8 +4,10 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lod/base/result.h"
 
@@ -16,6 +18,9 @@ struct ModelSource {
     std::unique_ptr<Assimp::Importer> importer;
     const aiScene* scene = nullptr;  ///< no post-processing yet; indices in range, coordinates finite
     std::string extension;           ///< lower case, without dot and without .gz
+    /// What was added to the vertices of the nodes' meshes and belongs to the nodes' transforms (data/ac3d_places.h),
+    /// by node, depth first; empty where nothing was.
+    std::vector<glm::dvec3> node_shifts;
 };
 
 /// Opens `path`; `.gz` is unpacked in memory (4 GiB at the most), then neighbouring files are not found.

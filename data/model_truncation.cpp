@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "data/ac3d_places.h"
 #include "data/ply_header.h"
 
 namespace data {
@@ -74,7 +75,7 @@ std::optional<std::string> truncation_problem(std::string_view content, std::str
     if (extension == "glb") return glb_problem(content);
     if (extension == "stl") return stl_problem(content);
     if (extension == "ply") return ply_problem(content);
-    if (extension == "ac" || extension == "acc" || extension == "ac3d") return ac3d_problem(content);
+    if (is_ac3d(extension)) return ac3d_problem(content);
     return std::nullopt;
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <glm/gtc/matrix_transform.hpp>
 
+#include "data/ac3d_places.h"
 #include "data/mesh_corners.h"
 #include "data/mesh_materials.h"
 #include "data/model_source.h"
@@ -24,7 +26,7 @@ struct FormatTraits {
 
 FormatTraits traits_of(const std::string& extension) {
     if (extension == "glb" || extension == "gltf") return {.is_y_up = true, .is_linear = true};
-    if (extension == "ac" || extension == "acc" || extension == "ac3d") return {.is_y_up = true};
+    if (is_ac3d(extension)) return {.is_y_up = true};
     if (extension == "stl") return {.has_facet_normals = true};
     return {};
 }
@@ -35,6 +37,7 @@ struct MeshReader {
     FormatTraits traits;
     const MaterialSet& materials;
     BakingMaterials baking;
+    const std::vector<glm::dvec3>& node_shifts;  ///< ModelSource's
 };
 
 glm::dmat4 matrix_of(const aiMatrix4x4& rows) {
@@ -113,12 +116,22 @@ MeshCorners corners_of(const MeshReader& reader, const aiNode& node, bool& has_u
     return corners;
 }
 
-MeshNode read_node(const MeshReader& reader, const aiNode& source, PolygonMeshStats& stats) {
+/// Takes back what was added to the vertices, and puts it where it belongs.
+void restore_place(const glm::dvec3& shift, MeshCorners& corners, MeshNode& node) {
+    for (glm::vec3& position : corners.positions)
+        position = glm::vec3(glm::dvec3(position) - shift);
+    node.parent_from_node = glm::translate(glm::dmat4(1.0), shift) * node.parent_from_node;
+}
+
+/// @param index  of the node, depth first
+MeshNode read_node(const MeshReader& reader, const aiNode& source, size_t index, PolygonMeshStats& stats) {
     MeshNode node;
     node.name = source.mName.C_Str();
     node.parent_from_node = matrix_of(source.mTransformation);
     bool has_uvs = false;
     MeshCorners corners = corners_of(reader, source, has_uvs, stats);
+    if (source.mNumMeshes > 0 && index < reader.node_shifts.size())
+        restore_place(reader.node_shifts[index], corners, node);
     make_smooth_normals(corners);
     WeldedCorners welded = weld(corners);
     node.colours = bake_colours(welded, reader.baking);
@@ -135,7 +148,7 @@ MeshNode read_node(const MeshReader& reader, const aiNode& source, PolygonMeshSt
 void append_nodes(const MeshReader& reader, const aiNode& source, int32_t parent, PolygonMesh& out,
                   PolygonMeshStats& stats) {
     const int32_t index = static_cast<int32_t>(out.nodes.size());
-    out.nodes.push_back(read_node(reader, source, stats));
+    out.nodes.push_back(read_node(reader, source, out.nodes.size(), stats));
     MeshNode& node = out.nodes.back();
     node.parent = parent;
     if (parent < 0 && reader.traits.is_y_up) node.parent_from_node = z_up_from_y_up() * node.parent_from_node;
@@ -196,7 +209,7 @@ lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshS
     const FormatTraits traits = traits_of(model->extension);
     MaterialSet materials = read_materials(*model->scene, path, traits.is_linear);
     met.missing_textures = materials.missing_textures;
-    const MeshReader reader{*model->scene, traits, materials, baking_of(materials)};
+    const MeshReader reader{*model->scene, traits, materials, baking_of(materials), model->node_shifts};
     PolygonMesh mesh;
     append_nodes(reader, *model->scene->mRootNode, -1, mesh, met);
     if (mesh.triangle_count() == 0)

@@ -46,8 +46,8 @@ lod::Result<Flight> fly(Stage& stage, const std::string& scene) {
     options.frames = static_cast<int64_t>(kFlight_s * kRate_hz);
     options.begin_s = stage.world->scene.start.time_s.value_or(stage.world->scene.time.begin_s);
     options.tolerance_px = kTolerance_px;
-    say(fmt::format("flying {} s at {} Hz, {} x {} pixels", kFlight_s, kRate_hz, stage.optics.width_px,
-                    stage.optics.height_px));
+    say_progress(fmt::format("flying {} s at {} Hz, {} x {} pixels", kFlight_s, kRate_hz,
+                             stage.optics.width_px, stage.optics.height_px));
     auto frames =
         run_loop(stage, options, [](const FrameRecord&, Stage&) -> lod::Result<bool> { return true; });
     if (!frames) return frames.error();

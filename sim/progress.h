@@ -1,7 +1,8 @@
-// Progress: one line on stderr per long step of the work, with what it found and how long it took.
+// What the program says on the way: progress for whoever watches, notes for everybody. Both on stderr, so that
+// stdout is only what was asked for.
 #pragma once
 
-#include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -21,9 +22,14 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Writes "harrier: line" to stderr.
-inline void say(const std::string& line) {
-    std::fprintf(stderr, "harrier: %s\n", line.c_str());
+/// One line about a long step of the work, when stderr is a terminal; a log gets notes and errors only.
+inline void say_progress(const std::string& line) {
+    if (isatty(STDERR_FILENO)) std::fprintf(stderr, "harrier: %s\n", line.c_str());
+}
+
+/// One line about a liberty that was taken with the input.
+inline void say_note(const std::string& line) {
+    std::fprintf(stderr, "harrier: note: %s\n", line.c_str());
 }
 
 }  // namespace sim

@@ -41,7 +41,7 @@ lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
     world.terrain = terrain::make_roam_front(*world.ground, roam);
     const data::HeightGrid& ground = *world.ground;
     const auto voids = std::count(ground.is_void.begin(), ground.is_void.end(), uint8_t{1});
-    say(fmt::format(
+    say_progress(fmt::format(
         "terrain: {} x {} samples, {:.0f} to {:.0f} m, {} voids, read in {:.1f} s, errors in {:.1f} s",
         ground.width, ground.height, ground.min_m, ground.max_m, voids, reading_s, errors.seconds()));
     return lod::Ok{};
@@ -60,8 +60,8 @@ lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
     painting.max_px = kMaxTexture_px;
     painting.threads = options.threads;
     world.ground_colours = paint_ground(*world.ground, imagery, painting);
-    say(fmt::format("ground: {} x {} texels painted in {:.1f} s", world.ground_colours.width,
-                    world.ground_colours.height, watch.seconds()));
+    say_progress(fmt::format("ground: {} x {} texels painted in {:.1f} s", world.ground_colours.width,
+                             world.ground_colours.height, watch.seconds()));
     return lod::Ok{};
 }
 
@@ -77,7 +77,12 @@ lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, M
     for (const objects::BuildingSite& site : built.sites)
         world.buildings.push_back(site.base_world);
     const data::FootprintStats& stats = footprints->stats;
-    say(fmt::format(
+    if (stats.skipped + built.off_terrain > 0) {
+        world.notes.push_back(
+            fmt::format("{}: {} buildings are beyond repair and {} off the terrain, not built", source.source,
+                        stats.skipped, built.off_terrain));
+    }
+    say_progress(fmt::format(
         "buildings: {} of {} built ({} repaired, {} skipped, {} off the terrain; {} heights by default) "
         "in {:.1f} s",
         built.sites.size(), stats.read, stats.repaired, stats.skipped, built.off_terrain, stats.by_default,
@@ -93,7 +98,7 @@ lod::Result<data::PolygonMesh> read_model(World& world, const std::string& path)
         world.notes.push_back(fmt::format("{}: {} textures are missing, drawn in the material's colour", path,
                                           stats.missing_textures));
     }
-    if (mesh) say(fmt::format("model: {}, {} triangles", path, mesh->triangle_count()));
+    if (mesh) say_progress(fmt::format("model: {}, {} triangles", path, mesh->triangle_count()));
     return mesh;
 }
 
@@ -183,7 +188,7 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
     }
     world->sun_world = world->frame.world_from_enu(middle_of(*world)) * kSunEnu;
     for (const std::string& note : world->notes)
-        say("note: " + note);
+        say_note(note);
     return world;
 }
 

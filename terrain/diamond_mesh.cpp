@@ -40,6 +40,21 @@ void DiamondMesh::reserve(uint64_t triangle_count) {
     free_.reserve(triangle_count * 5 / 4 + 64);
     kids_.reserve(triangle_count / 2 + 64);
     free_kids_.reserve(triangle_count / 2 + 64);
+    is_block_used_.reserve(triangle_count / 2 + 64);
+}
+
+void DiamondMesh::tidy() {
+    is_block_used_.assign(kids_.size(), 0);
+    free_.clear();
+    for (DiamondIndex index = record_count(); index-- > kCornerCount;) {
+        const Diamond& d = diamonds_[index];
+        if (!d.is_used) free_.push_back(index);
+        if (d.is_used && d.kids != kOutside) is_block_used_[d.kids] = 1;
+    }
+    free_kids_.clear();
+    for (uint32_t block = static_cast<uint32_t>(kids_.size()); block-- > 0;) {
+        if (is_block_used_[block] == 0) free_kids_.push_back(block);
+    }
 }
 
 DiamondIndex DiamondMesh::make_record(GridPoint centre, int level) {
@@ -61,6 +76,7 @@ DiamondIndex DiamondMesh::make_record(GridPoint centre, int level) {
 }
 
 void DiamondMesh::free_record(DiamondIndex index) {
+    diamonds_[index].kids = kOutside;
     diamonds_[index].is_used = false;
     free_.push_back(index);
 }

@@ -103,6 +103,10 @@ class DiamondMesh {
     /// Merges a split diamond without split children.
     MergeOutcome merge(DiamondIndex index);
 
+    /// Orders the free records and blocks by address, so that what is made next lies together in memory: worth
+    /// its time after much has been merged at once. Cost: O(record_count()), about 2 ns a record.
+    void tidy();
+
     /// Reserves memory so that no operation allocates below this many triangles.
     void reserve(uint64_t triangle_count);
 
@@ -120,6 +124,7 @@ class DiamondMesh {
     std::vector<std::array<DiamondIndex, 4>> kids_;
     std::vector<DiamondIndex> free_;
     std::vector<uint32_t> free_kids_;
+    std::vector<uint8_t> is_block_used_;  ///< scratch of tidy()
     uint64_t triangles_ = 2;
     uint64_t hash_ = 0;
 };

@@ -184,6 +184,7 @@ void RoamFront::collect_due() {
 /// Top-down over an incoherent frame: what the eye cannot see, or sees far below the tolerance, goes whole.
 void RoamFront::prune() {
     const Bucket limit = scale_.bucket_of(scale_.reference_px * 0.25f);
+    const uint32_t before = mesh_.live_count();
     chain_.clear();
     if (mesh_[kRoot].is_split) chain_.push_back(kRoot);
     while (!chain_.empty()) {
@@ -203,6 +204,7 @@ void RoamFront::prune() {
             }
         }
     }
+    if (mesh_.live_count() < before - before / 4) mesh_.tidy();
 }
 
 void RoamFront::begin_frame(std::span<const lod::View> views, double) {
