@@ -14,6 +14,12 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr uint64_t kEnoughOperations = 4'000'000'000;  // far beyond any front; the loop ends by converging
 
+/// At a triangle limit fronts may swap for ever without gain: an end after which a picture is as good as it gets.
+uint64_t most_operations(const StillArguments& arguments) {
+    if (arguments.operations) return *arguments.operations;
+    return arguments.triangles ? 20 * *arguments.triangles + 20000 : kEnoughOperations;
+}
+
 double still_time_s(const StillArguments& arguments, const Scene& scene) {
     return arguments.time_s.value_or(scene.start.time_s.value_or(scene.time.begin_s));
 }
@@ -52,7 +58,7 @@ lod::Result<lod::Ok> write_outputs(const StillArguments& arguments, Stage& stage
         if (!written) return written.error();
     }
     if (!arguments.geometry.empty()) {
-        auto written = write_ply(arguments.geometry, stage.renderer.read_triangles(view));
+        auto written = write_ply(arguments.geometry, merge_corners(stage.renderer.read_triangles(view)));
         if (!written) return written.error();
     }
     return lod::Ok{};
@@ -62,7 +68,7 @@ Allowance still_allowance(const StillArguments& arguments) {
     Allowance allowance;
     allowance.budget.tolerance_px = arguments.tolerance_px;
     if (arguments.triangles) allowance.budget.max_triangles = *arguments.triangles;
-    allowance.deadline = lod::operation_limit(arguments.operations.value_or(kEnoughOperations));
+    allowance.deadline = lod::operation_limit(most_operations(arguments));
     return allowance;
 }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <unordered_map>
 
+#include "lod/base/check.h"
 #include "lod/base/hash.h"
 #include "sim/whole_file.h"
 
@@ -40,37 +40,49 @@ void append(std::string& bytes, const Value& value) {
 
 }  // namespace
 
-lod::Result<lod::Ok> write_ply(const std::string& path, const render::DrawnTriangles& triangles) {
-    std::unordered_map<Corner, int32_t, CornerHash> index_of;
+PlyMesh merge_corners(const render::DrawnTriangles& triangles) {
+    std::unordered_map<Corner, uint32_t, CornerHash> index_of;
     index_of.reserve(triangles.world.size());
-    std::string vertices, faces;
-    faces.reserve(triangles.world.size() * 14);
+    PlyMesh mesh;
     for (size_t i = 0; i < triangles.world.size(); ++i) {
         const auto module = static_cast<uint8_t>(triangles.module[i]);
-        append(faces, uint8_t{3});
-        for (const glm::dvec3& p : triangles.world[i]) {
-            const glm::dvec3 q = p + 0.0;  // -0 becomes 0
-            const Corner corner{
-                {std::bit_cast<uint64_t>(q.x), std::bit_cast<uint64_t>(q.y), std::bit_cast<uint64_t>(q.z)},
+        std::array<uint32_t, 3> face{};
+        for (size_t corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 p = triangles.world[i][corner] + 0.0;  // -0 becomes 0
+            const Corner key{
+                {std::bit_cast<uint64_t>(p.x), std::bit_cast<uint64_t>(p.y), std::bit_cast<uint64_t>(p.z)},
                 module};
-            const auto [place, is_new] = index_of.emplace(corner, static_cast<int32_t>(index_of.size()));
-            if (is_new) {
-                append(vertices, q.x);
-                append(vertices, q.y);
-                append(vertices, q.z);
-            }
-            append(faces, place->second);
+            const auto [place, is_new] = index_of.emplace(key, static_cast<uint32_t>(mesh.vertices.size()));
+            if (is_new) mesh.vertices.push_back(p);
+            face[corner] = place->second;
         }
-        append(faces, module);
+        mesh.faces.push_back(face);
+        mesh.module.push_back(module);
     }
-    const std::string header = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment world coordinates, metres; module 0 terrain, 1 "
-        "objects, 2 "
-        "instruments\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\nelement "
-        "face {}\n"
+    return mesh;
+}
+
+lod::Result<lod::Ok> write_ply(const std::string& path, const PlyMesh& mesh) {
+    CHECK(mesh.vertices.size() < (size_t{1} << 31) && mesh.module.size() == mesh.faces.size());
+    std::string bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\ncomment module 0 terrain, 1 objects, 2 instruments\nelement "
+        "vertex {}\n"
+        "property double x\nproperty double y\nproperty double z\nelement face {}\n"
         "property list uchar int vertex_indices\nproperty uchar module\nend_header\n",
-        index_of.size(), triangles.world.size());
-    return write_whole(path, header + vertices + faces);
+        mesh.vertices.size(), mesh.faces.size());
+    bytes.reserve(bytes.size() + mesh.vertices.size() * 24 + mesh.faces.size() * 14);
+    for (const glm::dvec3& p : mesh.vertices) {
+        append(bytes, p.x);
+        append(bytes, p.y);
+        append(bytes, p.z);
+    }
+    for (size_t i = 0; i < mesh.faces.size(); ++i) {
+        append(bytes, uint8_t{3});
+        for (uint32_t corner : mesh.faces[i])
+            append(bytes, static_cast<int32_t>(corner));
+        append(bytes, mesh.module[i]);
+    }
+    return write_whole(path, bytes);
 }
 
 }  // namespace sim

@@ -1,0 +1,90 @@
+// `terrain extract`: its mesh against the raster, read here from the text the test wrote.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace {
+
+using nlohmann::json;
+using sim_test::run_program;
+using sim_test::TempFolder;
+
+struct Mesh {
+    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<int32_t, 3>> faces;
+};
+
+Mesh read_mesh(const std::string& path) {
+    const std::string bytes = sim_test::read_all(path);
+    Mesh mesh;
+    mesh.vertices.resize(std::stoul(bytes.substr(bytes.find("element vertex ") + 15)));
+    mesh.faces.resize(std::stoul(bytes.substr(bytes.find("element face ") + 13)));
+    size_t at = bytes.find("end_header\n") + 11;
+    std::memcpy(mesh.vertices.data(), bytes.data() + at, mesh.vertices.size() * 24);
+    at += mesh.vertices.size() * 24;
+    for (auto& face : mesh.faces) {
+        std::memcpy(face.data(), bytes.data() + at + 1, 12);
+        at += 14;
+    }
+    EXPECT_EQ(at, bytes.size());
+    return mesh;
+}
+
+double relief_m(int col, int row) {
+    return 100 + (row * row + 3 * col) % 41;
+}
+
+/// Height of the mesh at x, y by searching every triangle.
+double mesh_height(const Mesh& mesh, double x, double y) {
+    for (const auto& face : mesh.faces) {
+        const auto& a = mesh.vertices[static_cast<size_t>(face[0])];
+        const auto& b = mesh.vertices[static_cast<size_t>(face[1])];
+        const auto& c = mesh.vertices[static_cast<size_t>(face[2])];
+        const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+        const double v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
+        const double w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
+        if (v < -1e-9 || w < -1e-9 || v + w > 1.0 + 1e-9) continue;
+        return a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]);
+    }
+    return NAN;
+}
+
+class Extract : public testing::TestWithParam<double> {};
+
+TEST_P(Extract, NoSampleIsFartherThanPromised) {
+    if (!sim_test::has_program()) GTEST_SKIP() << "harrier is not built in " HARRIER_BINARY_DIR;
+    const TempFolder folder;
+    const std::string dem = folder.write("relief.asc", sim_test::small_relief()), ply = folder.file("m.ply");
+    const auto outcome = run_program(
+        folder, "terrain extract " + dem + " --out " + ply + " --max-error " + std::to_string(GetParam()));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json said = json::parse(outcome.out);
+    const Mesh mesh = read_mesh(ply);
+    EXPECT_EQ(said["triangles"], mesh.faces.size());
+    EXPECT_EQ(said["vertices"], mesh.vertices.size());
+    EXPECT_LE(said["max_error_m"].get<double>(), GetParam());
+    double worst_m = 0.0;
+    for (int row = 0; row < 33; ++row) {
+        for (int col = 0; col < 33; ++col) {
+            const double there_m = mesh_height(mesh, 30.0 * (col + 0.5), 30.0 * (32.5 - row));
+            ASSERT_FALSE(std::isnan(there_m)) << col << ", " << row;
+            worst_m = std::max(worst_m, std::abs(there_m - relief_m(col, row)));
+        }
+    }
+    EXPECT_LE(worst_m, said["max_error_m"].get<double>() + 1e-6);
+    for (const auto& face : mesh.faces) {
+        const auto& a = mesh.vertices[static_cast<size_t>(face[0])];
+        const auto& b = mesh.vertices[static_cast<size_t>(face[1])];
+        const auto& c = mesh.vertices[static_cast<size_t>(face[2])];
+        EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]), 0.0) << "counter-clockwise";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, Extract, testing::Values(0.0, 3.0, 12.0, 100.0));
+
+}  // namespace
