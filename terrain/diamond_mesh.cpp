@@ -48,8 +48,8 @@ void DiamondMesh::tidy() {
     free_.clear();
     for (DiamondIndex index = record_count(); index-- > kCornerCount;) {
         const Diamond& d = diamonds_[index];
-        if (!d.is_used) free_.push_back(index);
-        if (d.is_used && d.kids != kOutside) is_block_used_[d.kids] = 1;
+        if (!d.is_used()) free_.push_back(index);
+        if (d.is_used() && d.kids != kOutside) is_block_used_[d.kids] = 1;
     }
     free_kids_.clear();
     for (uint32_t block = static_cast<uint32_t>(kids_.size()); block-- > 0;) {
@@ -71,13 +71,12 @@ DiamondIndex DiamondMesh::make_record(GridPoint centre, int level) {
     d.x = static_cast<uint16_t>(centre.x);
     d.y = static_cast<uint16_t>(centre.y);
     d.level = static_cast<uint16_t>(level) & 31;
-    d.is_used = true;
     return index;
 }
 
 void DiamondMesh::free_record(DiamondIndex index) {
     diamonds_[index].kids = kOutside;
-    diamonds_[index].is_used = false;
+    diamonds_[index].level = kFreeLevel;
     free_.push_back(index);
 }
 
@@ -156,7 +155,7 @@ uint32_t DiamondMesh::make_kids(DiamondIndex index, SplitOutcome& outcome) {
 
 SplitOutcome DiamondMesh::split(DiamondIndex index) {
     SplitOutcome outcome;
-    DCHECK(diamonds_[index].is_used && !diamonds_[index].is_split);
+    DCHECK(diamonds_[index].is_used() && !diamonds_[index].is_split);
     if (diamonds_[index].level < domain_.finest_level()) {
         const uint32_t block = make_kids(index, outcome);
         diamonds_[index].kids = block;  // the records may have moved

@@ -28,19 +28,29 @@ inline bool is_record(DiamondIndex index) {
     return index < kUnsplit;
 }
 
+inline constexpr uint16_t kFreeLevel = 31;
+
+/// Two bytes for whoever ranks the diamonds; the mesh only clears them.
+struct RankTag {
+    uint8_t bucket = 0;
+    uint8_t queue : 2 = 0;
+    uint8_t stamp : 6 = 0;
+};
+
 /// One diamond.
 struct Diamond {
     uint16_t x = 0, y = 0;                          ///< centre
     DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
     uint32_t kids = kOutside;                       ///< block of four child indices; kOutside: unsplit
-    uint16_t level : 5 = 0;
-    uint16_t apex_dir : 3 = 0;    ///< 0 … 7, diamond.h
-    uint16_t slot0 : 2 = 0;       ///< this record's place among parent[0]'s children
-    uint16_t slot1 : 2 = 0;       ///< … and among parent[1]'s
-    uint16_t split_kids : 3 = 0;  ///< children that are split
+    uint16_t level : 5 = 0;                         ///< kFreeLevel: on the free list
+    uint16_t apex_dir : 3 = 0;                      ///< 0 … 7, diamond.h
+    uint16_t slot0 : 2 = 0;                         ///< this record's place among parent[0]'s children
+    uint16_t slot1 : 2 = 0;                         ///< … and among parent[1]'s
+    uint16_t split_kids : 3 = 0;                    ///< children that are split
     uint16_t is_split : 1 = 0;
-    bool is_used = false;  ///< false: on the free list
-    uint8_t unused = 0;
+    RankTag tag;
+
+    bool is_used() const { return level != kFreeLevel; }
 
     int slot(int which) const { return which == 0 ? slot0 : slot1; }
     void set_slot(int which, int side) {
@@ -77,6 +87,7 @@ class DiamondMesh {
 
     const Domain& domain() const { return domain_; }
     const Diamond& operator[](DiamondIndex index) const { return diamonds_[index]; }
+    RankTag& tag(DiamondIndex index) { return diamonds_[index].tag; }
     /// Records ever in use; indices are below this.
     uint32_t record_count() const { return static_cast<uint32_t>(diamonds_.size()); }
     /// Records in use now, without the corners.

@@ -81,9 +81,10 @@ inline DepthError depth_error(const AnchoredEye& eye, const DiamondBound& bound,
     const float depth =
         std::max(std::max(front, (distance - bound.radius_m) * eye.inverse_stretch), eye.near_m);
     const float slant = std::min(eye.stretch, (distance + bound.radius_m) / std::max(front, eye.near_m));
+    // 1 / sqrt(4 - 2.3 q^2) >= 1/2 + q^2 / 7: a tangent, and safe.
     const float q = std::min(depth / (distance + bound.radius_m), 1.0f);
     return {eye.lambda_px * bound.error_m * std::max(slant, 1.0f) / depth, depth,
-            depth / std::sqrt(4.0f - 2.3f * q * q)};
+            depth * (0.5f + q * q * (1.0f / 7.0f))};
 }
 
 inline Evaluation evaluate(const DiamondBound& bound, std::span<const AnchoredEye> eyes,

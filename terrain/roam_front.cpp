@@ -85,8 +85,9 @@ Bucket RoamFront::family_bucket(DiamondIndex index) {
 /// Evaluates a record and sets when it wakes next.
 void RoamFront::rank(DiamondIndex index, Watch watch) {
     const Evaluation now = evaluate_now(index, watch);
-    ranks_[index].bucket = now.bucket;
-    ranks_[index].stamp = stamp_;
+    RankTag& tag = mesh_.tag(index);
+    tag.bucket = now.bucket;
+    tag.stamp = stamp_ & 63;
     // The guard is shared out between walking and turning as this frame's motion is.
     const float walk_m = now.guard_m * walk_share_;
     const float turn_rad = (now.guard_m - walk_m) / (now.distance_m + walk_m + 1e-6f);
@@ -95,30 +96,31 @@ void RoamFront::rank(DiamondIndex index, Watch watch) {
 }
 
 void RoamFront::enqueue(DiamondIndex index, Queue queue) {
-    Rank& r = ranks_[index];
-    DCHECK(r.queue == Queue::kNone);
-    r.queue = queue;
-    (queue == Queue::kSplit ? split_queue_ : merge_queue_).push(ranks_, index, r.bucket);
+    DCHECK(queue_of(index) == Queue::kNone);
+    mesh_.tag(index).queue = static_cast<uint8_t>(queue) & 3;
+    queue_at(queue).push(ranks_, index, bucket_of(index));
 }
 
 void RoamFront::dequeue(DiamondIndex index) {
-    Rank& r = ranks_[index];
-    if (r.queue == Queue::kNone) return;
-    (r.queue == Queue::kSplit ? split_queue_ : merge_queue_).remove(ranks_, index, r.bucket);
-    r.queue = Queue::kNone;
+    if (queue_of(index) == Queue::kNone) return;
+    unlink(index);
     wake_m_[index] = wake_rad_[index] = kNever;
+}
+
+/// Out of its queue, but still awake at its time.
+void RoamFront::unlink(DiamondIndex index) {
+    queue_at(queue_of(index)).remove(ranks_, index, bucket_of(index));
+    mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 3;
 }
 
 /// Evaluates a queued record anew and moves it to its bucket.
 void RoamFront::refresh(DiamondIndex index) {
-    Rank& r = ranks_[index];
-    const Bucket before = r.bucket;
-    const Queue queue = r.queue;
+    const Bucket before = bucket_of(index);
+    const Queue queue = queue_of(index);
     rank(index, queue == Queue::kMerge ? Watch::kRiseAndFall : Watch::kRise);
-    if (r.bucket == before) return;
-    BucketQueue& home = queue == Queue::kSplit ? split_queue_ : merge_queue_;
-    home.remove(ranks_, index, before);
-    home.push(ranks_, index, r.bucket);
+    if (bucket_of(index) == before) return;
+    queue_at(queue).remove(ranks_, index, before);
+    queue_at(queue).push(ranks_, index, bucket_of(index));
 }
 
 /// A new candidate.
@@ -190,7 +192,7 @@ void RoamFront::prune() {
     while (!chain_.empty()) {
         const DiamondIndex index = chain_.back();
         chain_.pop_back();
-        if (!mesh_[index].is_used || !mesh_[index].is_split) continue;
+        if (!mesh_[index].is_used() || !mesh_[index].is_split) continue;
         if (family_bucket(index) < limit) {
             merge_subtree(index);
             continue;
@@ -219,7 +221,7 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double) {
         prune();
     }
     for (DiamondIndex index : due_) {
-        if (ranks_[index].queue != Queue::kNone) refresh(index);
+        if (queue_of(index) != Queue::kNone) refresh(index);
     }
 }
 
@@ -228,7 +230,7 @@ double RoamFront::refine_error_px() {
         const Bucket bucket = split_queue_.highest();
         if (bucket == kHiddenBucket) return 0.0;
         const DiamondIndex head = split_queue_.head(bucket);
-        if (ranks_[head].stamp != stamp_) {
+        if (!is_fresh(head)) {
             refresh(head);
             continue;
         }
@@ -241,7 +243,7 @@ double RoamFront::coarsen_error_px() {
     while (!merge_queue_.is_empty()) {
         const Bucket bucket = merge_queue_.lowest();
         const DiamondIndex head = merge_queue_.head(bucket);
-        if (ranks_[head].stamp != stamp_) {
+        if (!is_fresh(head)) {
             refresh(head);
             continue;
         }
@@ -257,8 +259,7 @@ double RoamFront::error_px() {
 
 /// Splits one candidate whose parents are split.
 uint32_t RoamFront::split_one(DiamondIndex index) {
-    split_queue_.remove(ranks_, index, ranks_[index].bucket);
-    ranks_[index].queue = Queue::kNone;
+    unlink(index);
     const SplitOutcome outcome = mesh_.split(index);
     grow_arrays();
     tessellator_.add_vertex(index);
@@ -267,8 +268,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     for (uint32_t i = 0; i < outcome.created_count; ++i)
         admit(outcome.created[i]);
     // Its evaluation stands; that it does not watch for a fall yet only delays a merge until it next wakes.
-    ranks_[index].queue = Queue::kMerge;
-    merge_queue_.push(ranks_, index, ranks_[index].bucket);
+    enqueue(index, Queue::kMerge);
     return 1;
 }
 
@@ -293,9 +293,7 @@ lod::Step RoamFront::refine() {
 
 /// Merges one diamond without split children; its record becomes a candidate again.
 void RoamFront::merge_one(DiamondIndex index) {
-    ranks_[index].queue = Queue::kMerge;
-    merge_queue_.remove(ranks_, index, ranks_[index].bucket);
-    ranks_[index].queue = Queue::kNone;
+    unlink(index);
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);
@@ -338,7 +336,7 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
     // What survived: the rim, as candidates or as diamonds that can be merged next.
     for (DiamondIndex index : merged_) {
         const Diamond& d = mesh_[index];
-        if (!d.is_used || ranks_[index].queue != Queue::kNone || (d.is_split && d.split_kids > 0)) continue;
+        if (!d.is_used() || queue_of(index) != Queue::kNone || (d.is_split && d.split_kids > 0)) continue;
         rank(index, d.is_split ? Watch::kRiseAndFall : Watch::kRise);
         enqueue(index, d.is_split ? Queue::kMerge : Queue::kSplit);
     }

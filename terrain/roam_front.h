@@ -67,14 +67,18 @@ class RoamFront final : public lod::Front {
 
   private:
     enum class Queue : uint8_t { kNone, kSplit, kMerge };
-    /// What ranks a record; 20 bytes.
+    /// What ranks a record, beside the two bytes of its tag.
     struct Rank {
         DiamondSource source;
         BucketLink link;
-        Bucket bucket = 0;
-        uint8_t stamp = 0;  ///< frame of the evaluation, modulo 256
-        Queue queue = Queue::kNone;
     };
+    static_assert(sizeof(Rank) == 16);
+
+    Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
+    Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
+    /// Evaluated in this very frame (or a multiple of 64 ago, which costs order, never a bound).
+    bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & 63); }
+    BucketQueue& queue_at(Queue queue) { return queue == Queue::kSplit ? split_queue_ : merge_queue_; }
 
     void grow_arrays();
     DiamondBound bound(DiamondIndex index) const { return bound_of_(mesh_[index], ranks_[index].source); }
@@ -83,6 +87,7 @@ class RoamFront final : public lod::Front {
     void rank(DiamondIndex index, Watch watch);
     void enqueue(DiamondIndex index, Queue queue);
     void dequeue(DiamondIndex index);
+    void unlink(DiamondIndex index);
     void refresh(DiamondIndex index);
     void admit(DiamondIndex index);
     uint32_t split_one(DiamondIndex index);

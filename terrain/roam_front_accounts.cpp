@@ -1,4 +1,5 @@
-// RoamFront's accounts: memory, and validate(): the mesh, the queues and every sleeping diamond's promise, checked against a fresh look.
+// RoamFront's accounts: its memory, and validate(), which checks the mesh, the queues and every sleeping diamond's
+// promise against a fresh look.
 #include <string>
 
 #include "terrain/roam_front.h"
@@ -12,15 +13,15 @@ std::string RoamFront::validate() const {
     uint64_t queued = 0;
     for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
         const Diamond& d = mesh_[i];
-        const Queue expected = !d.is_used          ? Queue::kNone
+        const Queue expected = !d.is_used()        ? Queue::kNone
                                : !d.is_split       ? Queue::kSplit
                                : d.split_kids == 0 ? Queue::kMerge
                                                    : Queue::kNone;
-        if (ranks_[i].queue != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
+        if (queue_of(i) != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
         queued += expected != Queue::kNone ? 1 : 0;
         if (expected == Queue::kNone || eyes_.empty()) continue;
         const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
-        if (now.error_px > scale_.upper_px(ranks_[i].bucket)) {
+        if (now.error_px > scale_.upper_px(bucket_of(i))) {
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
         }
     }
@@ -29,8 +30,7 @@ std::string RoamFront::validate() const {
         for (uint32_t b = 0; b < kBucketCount; ++b) {
             for (uint32_t i = queue->head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
                  i = ranks_[i].link.next) {
-                if (ranks_[i].bucket != b)
-                    return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
+                if (bucket_of(i) != b) return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
                 if (++linked > queued) return "a queue has a loop or a stray record";
             }
         }
@@ -39,8 +39,7 @@ std::string RoamFront::validate() const {
 }
 
 uint64_t RoamFront::memory_bytes() const {
-    const uint64_t record =
-        sizeof(Diamond) + sizeof(DiamondBound) + sizeof(BucketLink) + sizeof(Rank) + 2 * sizeof(float);
+    const uint64_t record = sizeof(Diamond) + sizeof(Rank) + 2 * sizeof(float);
     const uint64_t split = (mesh_.triangles() - 2) / 2;
     return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
 }

@@ -69,7 +69,7 @@ void Tessellator::place(const lod::PoolRegion& region) {
 
 void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& out) {
     for (DiamondIndex index : fresh_) {
-        if (!input.mesh[index].is_used || !input.mesh[index].is_split) continue;
+        if (!input.mesh[index].is_used() || !input.mesh[index].is_split) continue;
         vertices_[index] = ground_vertex(input, index);
         dirty_pages_[index / kPageSize / 64] |= uint64_t{1} << (index / kPageSize % 64);
     }

@@ -29,7 +29,7 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
         }
         ++present;
         if (mesh[parent].centre() != apex) return fault(index, d, "parent is not its apex");
-        if (!mesh[parent].is_used || !mesh[parent].is_split) return fault(index, d, "parent is not split");
+        if (!mesh[parent].is_used() || !mesh[parent].is_split) return fault(index, d, "parent is not split");
         if (parent >= kCornerCount && mesh.child(parent, d.slot(which)) != index) {
             return fault(index, d, "parent does not know it");
         }
@@ -53,7 +53,7 @@ std::string check_children(const DiamondMesh& mesh, DiamondIndex index) {
             return fault(index, d, "child missing or beyond the domain");
         if (!is_record(child)) continue;
         const Diamond& c = mesh[child];
-        if (!c.is_used || c.centre() != at || c.level != d.level + 1) return fault(index, d, "wrong child");
+        if (!c.is_used() || c.centre() != at || c.level != d.level + 1) return fault(index, d, "wrong child");
         if (c.parent[0] != index && c.parent[1] != index) return fault(index, d, "child does not know it");
         split_kids += c.is_split ? 1 : 0;
     }
@@ -68,7 +68,7 @@ std::string validate_mesh(const DiamondMesh& mesh) {
     std::set<std::pair<int, int>> centres;
     for (DiamondIndex index = kRoot; index < mesh.record_count(); ++index) {
         const Diamond& d = mesh[index];
-        if (!d.is_used) continue;
+        if (!d.is_used()) continue;
         ++live;
         if (!centres.insert({d.x, d.y}).second) return fault(index, d, "exists twice");
         if (std::string found = check_parents(mesh, index); !found.empty()) return found;

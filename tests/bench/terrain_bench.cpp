@@ -110,6 +110,7 @@ void CoherentFlight(benchmark::State& state) {
     state.counters["triangles"] = double(front.triangles());
     state.counters["operations"] = double(operations) / double(state.iterations());
     state.counters["evaluations"] = double(front.evaluations() - before) / double(state.iterations());
+    state.counters["records"] = double(front.mesh().live_count());
     state.counters["bytes_per_triangle"] = double(front.memory_bytes()) / double(front.triangles());
 }
 BENCHMARK(CoherentFlight)->Unit(benchmark::kMillisecond)->Iterations(600);
