@@ -10,16 +10,16 @@ namespace data {
 namespace {
 
 constexpr double kGap = 0.3;  // between the centre lines of neighbours, in heights
-constexpr int kQuarterSegments = 5;
+constexpr int kQuarterSegments = 3;
 
 struct Arc {
     double x, y, radius_x, radius_y;
     double from_deg, to_deg;  ///< counter-clockwise from +x when rising
 };
 
-/// Appends an arc to a line; steps of at most 15 degrees.
+/// Appends an arc to a line; steps of at most 20 degrees.
 void append_arc(const Arc& arc, Polyline& out) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.to_deg - arc.from_deg) / 15.0)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.to_deg - arc.from_deg) / 20.0)));
     for (int i = 0; i <= steps; ++i) {
         const double angle =
             (arc.from_deg + (arc.to_deg - arc.from_deg) * i / steps) * std::numbers::pi / 180.0;
