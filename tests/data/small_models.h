@@ -193,17 +193,19 @@ inline std::string ply_text(const std::string& format, const std::string& body) 
 inline std::string glb() {
     const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0};
     const std::vector<uint16_t> indices{0, 1, 2, 0};
-    const std::string binary = bytes_of(positions) + bytes_of(indices);
+    const std::vector<float> colours{0.5f, 1, 1, 1, 0.5f, 1, 1, 1, 0.5f, 1, 1, 1};
+    const std::string binary = bytes_of(positions) + bytes_of(indices) + bytes_of(colours);
     std::string json =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
         R"("nodes":[{"name":"mast","translation":[0,5,0],"children":[1]},)"
         R"({"name":"jib","rotation":[0,0,0.70710678,0.70710678],"mesh":0}],)"
         R"("materials":[{"name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.0,1.0,0.5]}}],)"
-        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,"material":0}]}],)"
         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
-        R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],)"
-        R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],)"
-        R"("buffers":[{"byteLength":44}]})";
+        R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},)"
+        R"({"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},{"buffer":0,"byteOffset":44,"byteLength":48}],)"
+        R"("buffers":[{"byteLength":92}]})";
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const uint32_t length = static_cast<uint32_t>(12 + 8 + json.size() + 8 + binary.size());
     return "glTF" + word(2) + word(length) + word(static_cast<uint32_t>(json.size())) + "JSON" + json +
