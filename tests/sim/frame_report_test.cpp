@@ -67,6 +67,7 @@ TEST(FrameReport, PercentilesAreNearestRanks) {
     EXPECT_EQ(summary.p99_ms, 99.0);
     EXPECT_EQ(summary.max_ms, 100.0);
     EXPECT_EQ(summary.missed, 84u);
+    EXPECT_EQ(sim::summarise(std::span(frames).first(10)).p95_ms, 100.0);  // of 91 to 100: the tenth
     EXPECT_EQ(sim::summarise(std::span(frames).first(1)).p50_ms, 100.0);
     EXPECT_EQ(sim::summarise({}).max_ms, 0.0);
 }
