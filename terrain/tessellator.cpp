@@ -75,6 +75,8 @@ void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& 
     }
     fresh_.clear();
     const uint32_t page_count = (input.mesh.record_count() + kPageSize - 1) / kPageSize;
+    const size_t most_pages = (region_.vertex_capacity + kPageSize - 1) / kPageSize;
+    out.vertex_writes.reserve(out.vertex_writes.size() + most_pages / 2 + 1);  // every other page, at most
     uint32_t run_begin = 0, run_length = 0;
     const auto flush = [&] {
         if (run_length == 0) return;
