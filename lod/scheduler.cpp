@@ -1,5 +1,6 @@
 #include "lod/scheduler.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace lod {
@@ -35,33 +36,50 @@ uint64_t total_triangles(std::span<Front* const> fronts) {
     return total;
 }
 
-/// One operation; false when there is nothing to do.
-bool step(std::span<Front* const> fronts, const Budget& budget) {
-    const uint64_t triangles = total_triangles(fronts);
-    const double release_px = budget.tolerance_px * budget.coarsen_ratio;
-    const Choice low = cheapest(fronts);
-    if (triangles > budget.max_triangles && low.front) {
-        // Only what refining would not want back at once: at least the cheapest, at most a little more.
+/// Triangles that one refinement may bring at the most, forced ones included, on any hierarchy of ours.
+constexpr uint64_t kLargestRefinement = 64;
+
+/// One call's bargain: what has been given up for room sets what a further refinement must at least gain.
+class Bargain {
+  public:
+    Bargain(std::span<Front* const> fronts, const Budget& budget) : fronts_(fronts), budget_(budget) {}
+
+    /// One operation; false when there is nothing worth doing.
+    bool step() {
+        const uint64_t triangles = total_triangles(fronts_);
+        const Choice low = cheapest(fronts_);
+        if (triangles > budget_.max_triangles && low.front) return give_up(low);
+        const Choice high = worst(fronts_);
+        if (high.front && high.error_px > budget_.tolerance_px) {
+            if (triangles + kLargestRefinement <= budget_.max_triangles) return refine(high);
+            const bool is_worth_it = !low.front || high.error_px > low.error_px * budget_.swap_ratio;
+            if (is_worth_it && triangles < budget_.max_triangles) return refine(high);
+            if (is_worth_it && low.front && is_gain(high)) return give_up(low);
+        }
+        const double release_px = budget_.tolerance_px * budget_.coarsen_ratio;
+        return low.front && low.error_px < release_px && low.front->coarsen(release_px).steps > 0;
+    }
+
+  private:
+    bool is_gain(const Choice& high) const { return high.error_px > paid_px_ * budget_.swap_ratio; }
+    bool refine(const Choice& high) { return is_gain(high) && high.front->refine().steps > 0; }
+    bool give_up(const Choice& low) {
+        paid_px_ = std::max(paid_px_, low.error_px);
         return low.front->coarsen(low.error_px).steps > 0;
     }
-    if (low.front && low.error_px < release_px) {
-        if (low.front->coarsen(release_px).steps > 0) return true;
-    }
-    const Choice high = worst(fronts);
-    if (!high.front || high.error_px <= budget.tolerance_px) return false;
-    if (triangles < budget.max_triangles) return high.front->refine().steps > 0;
-    if (low.front && high.error_px > low.error_px * budget.swap_ratio) {
-        return low.front->coarsen(low.error_px).steps > 0;  // makes room; the next operation refines
-    }
-    return false;
-}
+
+    std::span<Front* const> fronts_;
+    const Budget& budget_;
+    double paid_px_ = 0.0;
+};
 
 }  // namespace
 
 ScheduleResult schedule(std::span<Front* const> fronts, const Budget& budget, const Deadline& deadline) {
     ScheduleResult result;
+    Bargain bargain(fronts, budget);
     while (!deadline(result.operations)) {
-        if (!step(fronts, budget)) {
+        if (!bargain.step()) {
             result.converged = true;
             break;
         }

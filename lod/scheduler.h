@@ -2,9 +2,9 @@
 //
 //     while time is left
 //         too many triangles        -> coarsen where it costs least
-//         worst error > tolerance   -> refine there; at the triangle limit first make room, but only if the
-//                                      swap gains more than the hysteresis
-//         else                      -> coarsen what stays below tolerance * slack, until nothing is left
+//         worst error > tolerance   -> refine there; near the triangle limit first make room, but only when the
+//                                      swap gains more than the hysteresis over all that was given up so far
+//         else                      -> release what stays below tolerance * coarsen_ratio, until nothing is left
 //
 // ROAM's dual-queue loop (Duchaineau 1997) over several hierarchies in one currency, pixels; Funkhouser and
 // Sequin (1993) for the idea of a frame budget spent where it buys most.

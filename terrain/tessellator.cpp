@@ -1,5 +1,8 @@
 #include "terrain/tessellator.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "lod/base/check.h"
 #include "terrain/diamond_metric.h"
 #include "terrain/leaf_cover.h"
@@ -7,7 +10,7 @@
 namespace terrain {
 namespace {
 
-constexpr uint32_t kPageSize = 64;  ///< vertices written together, 2 KiB
+constexpr uint32_t kPageSize = 64;  ///< vertices written together, 2 KiB; a word of `fresh_`
 
 /// Leaves what one view cannot see, writes the rest as indices.
 struct IndexWriter {
@@ -53,7 +56,8 @@ lod::Vertex ground_vertex(const TessellationInput& input, DiamondIndex index) {
 }  // namespace
 
 void Tessellator::add_vertex(DiamondIndex index) {
-    fresh_.push_back(index);
+    if (index / kPageSize >= fresh_.size()) fresh_.resize(index / kPageSize + 1);
+    fresh_[index / kPageSize] |= uint64_t{1} << (index % kPageSize);
 }
 
 lod::PoolRegion Tessellator::need(uint64_t triangles, uint32_t records) {
@@ -64,16 +68,24 @@ void Tessellator::place(const lod::PoolRegion& region) {
     region_ = region;
     const size_t pages = (region.vertex_capacity + kPageSize - 1) / kPageSize;
     vertices_.resize(pages * kPageSize);
-    dirty_pages_.assign((pages + 63) / 64, ~uint64_t{0});
+    fresh_.resize(std::max(pages, fresh_.size()));
+    is_all_stale_ = true;
+}
+
+/// Makes the new vertices of a page; whether the page must be written.
+bool Tessellator::refresh_page(const TessellationInput& input, uint32_t page) {
+    uint64_t bits = page < fresh_.size() ? fresh_[page] : 0;
+    if (bits == 0) return is_all_stale_;
+    fresh_[page] = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const DiamondIndex index = page * kPageSize + static_cast<uint32_t>(std::countr_zero(bits));
+        if (input.mesh[index].is_used() && input.mesh[index].is_split)
+            vertices_[index] = ground_vertex(input, index);
+    }
+    return true;
 }
 
 void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& out) {
-    for (DiamondIndex index : fresh_) {
-        if (!input.mesh[index].is_used() || !input.mesh[index].is_split) continue;
-        vertices_[index] = ground_vertex(input, index);
-        dirty_pages_[index / kPageSize / 64] |= uint64_t{1} << (index / kPageSize % 64);
-    }
-    fresh_.clear();
     const uint32_t page_count = (input.mesh.record_count() + kPageSize - 1) / kPageSize;
     const size_t most_pages = (region_.vertex_capacity + kPageSize - 1) / kPageSize;
     out.vertex_writes.reserve(out.vertex_writes.size() + most_pages / 2 + 1);  // every other page, at most
@@ -86,7 +98,7 @@ void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& 
         run_length = 0;
     };
     for (uint32_t page = 0; page < page_count; ++page) {
-        if ((dirty_pages_[page / 64] >> (page % 64) & 1) != 0) {
+        if (refresh_page(input, page)) {
             if (run_length == 0) run_begin = page;
             ++run_length;
         } else {
@@ -94,7 +106,7 @@ void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& 
         }
     }
     flush();
-    std::fill(dirty_pages_.begin(), dirty_pages_.end(), 0);
+    is_all_stale_ = false;
 }
 
 void Tessellator::emit(const TessellationInput& input, const lod::View& view, lod::DrawList& out) {

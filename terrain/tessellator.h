@@ -44,12 +44,13 @@ class Tessellator {
     uint64_t emitted_triangles() const { return emitted_; }
 
   private:
+    bool refresh_page(const TessellationInput& input, uint32_t page);
     void write_vertices(const TessellationInput& input, lod::DrawList& out);
 
     lod::PoolRegion region_;
     std::vector<lod::Vertex> vertices_;  ///< [record]; the pool's twin
-    std::vector<uint64_t> dirty_pages_;  ///< bit per kPageSize vertices
-    std::vector<DiamondIndex> fresh_;    ///< split since the last emit
+    std::vector<uint64_t> fresh_;        ///< a bit per record: split since its vertex was last written
+    bool is_all_stale_ = true;           ///< the region is new: everything must be written
     std::vector<uint32_t> indices_;      ///< this frame's, all views
     bool is_first_view_ = true;
     uint64_t emitted_ = 0;

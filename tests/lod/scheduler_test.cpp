@@ -1,0 +1,119 @@
+// The scheduler on a front so simple that the best cut is known: independent places whose error halves per level.
+#include "lod/scheduler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace {
+
+/// Each place has an error of base / 2^level; a level costs two triangles.
+class Halving final : public lod::Front {
+  public:
+    explicit Halving(std::vector<double> base) : base_(std::move(base)), level_(base_.size(), 0) {}
+
+    void begin_frame(std::span<const lod::View>, double) override {}
+    double refine_error_px() override { return error_at(worst()); }
+    double coarsen_error_px() override {
+        const size_t i = cheapest();
+        return i == level_.size() ? std::numeric_limits<double>::infinity() : 2.0 * error_at(i);
+    }
+    lod::Step refine() override {
+        ++level_[worst()];
+        return {2, 1};
+    }
+    lod::Step coarsen(double limit_px) override {
+        if (coarsen_error_px() > limit_px) return {};
+        --level_[cheapest()];
+        return {-2, 1};
+    }
+    uint64_t triangles() const override {
+        uint64_t sum = 2 * level_.size();
+        for (int level : level_)
+            sum += 2 * static_cast<uint64_t>(level);
+        return sum;
+    }
+    double error_px() override { return error_at(worst()); }
+    lod::OperationCounts operations() const override { return {}; }
+    uint64_t hash() const override { return 0; }
+    lod::PoolRegion pool_need() const override { return {}; }
+    void place(const lod::PoolRegion&) override {}
+    void emit(const lod::View&, lod::DrawList&) override {}
+    uint64_t emitted_triangles() const override { return 0; }
+    std::string validate() const override { return ""; }
+
+    std::vector<double> base_;
+    std::vector<int> level_;
+
+  private:
+    double error_at(size_t i) const { return std::ldexp(base_[i], -level_[i]); }
+    size_t worst() const {
+        size_t best = 0;
+        for (size_t i = 1; i < base_.size(); ++i)
+            best = error_at(i) > error_at(best) ? i : best;
+        return best;
+    }
+    size_t cheapest() const {
+        size_t best = level_.size();
+        for (size_t i = 0; i < base_.size(); ++i) {
+            if (level_[i] > 0 && (best == level_.size() || error_at(i) < error_at(best))) best = i;
+        }
+        return best;
+    }
+};
+
+TEST(Scheduler, ReachesTheToleranceAndStops) {
+    Halving a({40.0, 3.0, 0.5}), b({100.0});
+    lod::Front* fronts[] = {&a, &b};
+    EXPECT_TRUE(lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000)).converged);
+    EXPECT_LE(std::max(a.error_px(), b.error_px()), 1.0);
+    EXPECT_EQ(lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000)).operations, 0u);
+}
+
+TEST(Scheduler, SharesOneLimitBetweenFronts) {
+    Halving a(std::vector<double>(100, 8.0)), b(std::vector<double>(100, 64.0));
+    lod::Front* fronts[] = {&a, &b};
+    const lod::Budget budget{.tolerance_px = 0.1, .max_triangles = 1200};
+    const lod::ScheduleResult result = lod::schedule(fronts, budget, lod::operation_limit(100'000));
+    EXPECT_TRUE(result.converged);
+    EXPECT_LE(a.triangles() + b.triangles(), 1200u);
+    EXPECT_GE(a.triangles() + b.triangles(), 1200u - 66u);
+    EXPECT_LE(std::abs(std::log2(a.error_px() / b.error_px())), 1.0) << "triangles went where they buy less";
+}
+
+TEST(Scheduler, MovesTrianglesWhenTheErrorMoves) {
+    Halving a(std::vector<double>(100, 64.0)), b(std::vector<double>(100, 1.0));
+    lod::Front* fronts[] = {&a, &b};
+    const lod::Budget budget{.tolerance_px = 0.1, .max_triangles = 1000};
+    lod::schedule(fronts, budget, lod::operation_limit(100'000));
+    const double before = a.error_px();
+    std::swap(a.base_, b.base_);
+    EXPECT_TRUE(lod::schedule(fronts, budget, lod::operation_limit(100'000)).converged);
+    EXPECT_LE(b.error_px(), 2.0 * before);
+    EXPECT_LE(a.triangles() + b.triangles(), 1000u);
+}
+
+TEST(Scheduler, SettlesAtALimit) {
+    for (uint64_t limit = 400; limit < 480; ++limit) {
+        Halving a({97.0, 31.0, 5.0, 77.0, 12.0, 64.0, 23.0, 41.0}), b(std::vector<double>(180, 3.0));
+        lod::Front* fronts[] = {&a, &b};
+        const lod::Budget budget{.tolerance_px = 0.01, .max_triangles = limit};
+        EXPECT_TRUE(lod::schedule(fronts, budget, lod::operation_limit(10'000)).converged) << limit;
+        EXPECT_LE(lod::schedule(fronts, budget, lod::operation_limit(10'000)).operations, 2u) << limit;
+    }
+}
+
+TEST(Scheduler, StopsAfterAnyOperation) {
+    for (uint64_t limit = 0; limit < 50; ++limit) {
+        Halving a({1000.0, 1.0});
+        lod::Front* fronts[] = {&a};
+        const lod::ScheduleResult result =
+            lod::schedule(fronts, {.tolerance_px = 0.001}, lod::operation_limit(limit));
+        EXPECT_LE(result.operations, limit);
+    }
+}
+
+}  // namespace
