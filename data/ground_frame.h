@@ -29,8 +29,8 @@ class GroundFrame {
     ///                       or axis order GDAL knows; other datums are taken to WGS84.
     /// @param width, height  samples, both >= 1
     /// Fails when the CRS cannot be understood or some sample has no place on the Earth.
-    static lod::Result<GroundFrame> make(const std::array<double, 6>& geo_transform, const std::string& crs_wkt,
-                                         int width, int height);
+    static lod::Result<GroundFrame> make(const std::array<double, 6>& geo_transform,
+                                         const std::string& crs_wkt, int width, int height);
 
     const WorldFrame& world() const { return world_; }
 

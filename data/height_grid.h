@@ -17,13 +17,15 @@ namespace data {
 /// Plain data. A void sample carries a finite, harmless height (interpolated from valid neighbours, inside the
 /// valid range), so arithmetic on heights never meets NaN; `is_void` says that it is not a measurement.
 struct HeightGrid {
-    int width = 0, height = 0;      ///< samples; both >= 1
-    std::vector<float> height_m;    ///< [height * width]
-    std::vector<uint8_t> is_void;   ///< [height * width], 1: no measurement; empty when there is none at all
+    int width = 0, height = 0;     ///< samples; both >= 1
+    std::vector<float> height_m;   ///< [height * width]
+    std::vector<uint8_t> is_void;  ///< [height * width], 1: no measurement; empty when there is none at all
     GroundFrame frame;
     float min_m = 0.0f, max_m = 0.0f;  ///< over valid samples
 
-    size_t index(int col, int row) const { return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(col); }
+    size_t index(int col, int row) const {
+        return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(col);
+    }
     float at(int col, int row) const { return height_m[index(col, row)]; }
     bool void_at(int col, int row) const { return !is_void.empty() && is_void[index(col, row)] != 0; }
     bool has_voids() const { return !is_void.empty(); }
@@ -61,7 +63,8 @@ struct HeightGridOptions {
 ///
 /// Fails with one line (file, place, expectation) on anything unreadable, truncated, smaller than 2 x 2 samples,
 /// or without a valid sample.
-lod::Result<HeightGrid> read_height_grid(const std::vector<std::string>& paths, const HeightGridOptions& options);
+lod::Result<HeightGrid> read_height_grid(const std::vector<std::string>& paths,
+                                         const HeightGridOptions& options);
 
 /// A grid without CRS, for tests, benchmarks and generated relief: spacing_m between samples, sample (0, 0) at
 /// x = 0, y = (height - 1) * spacing_m, rows going south.

@@ -49,7 +49,9 @@ class Front {
     Front& operator=(const Front&) = delete;
     virtual ~Front() = default;
 
-    /// New viewpoints and simulation time. Re-evaluates what the motion may have changed; changes no geometry.
+    /// New viewpoints and simulation time. Re-evaluates what the motion may have changed. Geometry
+    /// stays, but for one case: a front may take back at once what an incoherent frame (a cut, a fast turn) has
+    /// put out of view; it counts that in operations().
     /// @param views   one per channel, at least one; errors are the maximum over them
     /// @param time_s  simulation time, seconds
     virtual void begin_frame(std::span<const View> views, double time_s) = 0;

@@ -9,6 +9,10 @@
 namespace sim {
 namespace {
 
+/// Feet of walls are lowered by this share of the ground's error bound: half of it leaves no more than half a bound
+/// of air under a wall and hides no more than a bound and a half of it (tests/sim/monaco_test.cpp has figures).
+constexpr double kFootShare = 0.5;
+
 constexpr double kVisibility_m = 45000.0;
 
 /// Shares out the pool; the regions follow each other.
@@ -197,7 +201,7 @@ lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowa
     const Stopwatch emit;
     if (world.objects) {
         world.objects->set_up_world(up_world);
-        world.objects->set_ground_error_px(world.terrain ? world.terrain->error_px() : 0.0);
+        world.objects->set_ground_error_px(world.terrain ? kFootShare * world.terrain->error_px() : 0.0);
     }
     if (auto emitted = emit_all(stage, view); !emitted) return emitted.error();
     record.emit_ms = emit.ms();

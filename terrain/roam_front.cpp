@@ -195,6 +195,7 @@ void RoamFront::prune() {
         if (!mesh_[index].is_used() || !mesh_[index].is_split) continue;
         if (family_bucket(index) < limit) {
             merge_subtree(index);
+            ++operations_[lod::OperationKind::kEnhMerge];
             continue;
         }
         for (int side = 0; side < 4; ++side) {

@@ -15,7 +15,8 @@ namespace lod {
 }  // namespace lod
 
 /// Ends the program unless `condition` holds. For the borders of a module, in every build.
-#define CHECK(condition) (static_cast<bool>(condition) ? void(0) : lod::check_failed(__FILE__, __LINE__, #condition))
+#define CHECK(condition) \
+    (static_cast<bool>(condition) ? void(0) : lod::check_failed(__FILE__, __LINE__, #condition))
 
 /// CHECK in debug builds only. For inner loops.
 #ifdef NDEBUG

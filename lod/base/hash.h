@@ -23,7 +23,8 @@ constexpr uint64_t hash_combine(uint64_t hash, uint64_t value) {
 
 /// Hash of raw bytes; the same on every little-endian machine.
 inline uint64_t hash_bytes(std::span<const unsigned char> bytes, uint64_t hash = 0) {
-    for (unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+    for (unsigned char byte : bytes)
+        hash = (hash ^ byte) * 0x100000001b3u;
     return mix64(hash);
 }
 

@@ -18,7 +18,8 @@ void parallel_for(size_t count, unsigned threads, const Body& body) {
     std::vector<std::jthread> workers;
     workers.reserve(parts - 1);
     for (size_t part = 1; part < parts; ++part) {
-        workers.emplace_back([&body, part, parts, count] { body(count * part / parts, count * (part + 1) / parts); });
+        workers.emplace_back(
+            [&body, part, parts, count] { body(count * part / parts, count * (part + 1) / parts); });
     }
     body(size_t{0}, count / parts);
 }

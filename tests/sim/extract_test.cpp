@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "tests/sim/program.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "sim/depth_tiff.h"
 #include "sim/ply_writer.h"
 #include "sim/whole_file.h"
-#include "temp_folder.h"
+#include "tests/sim/temp_folder.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "tests/sim/program.h"
 
 namespace {
 

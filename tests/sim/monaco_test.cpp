@@ -168,11 +168,11 @@ TEST(Monaco, WallsMeetTheRenderedGround) {
             -quantile(gaps.px, 0.5), -quantile(gaps.px, 0.01), -gaps.px.front(), -gaps.m.front(),
             frame->error_px[0]);
         EXPECT_EQ(gaps.without_ground, 0u);
-        EXPECT_LE(gaps.px.back(), 0.0) << "a foot stands above the ground";
+        EXPECT_LE(gaps.px.back(), 0.5 * frame->error_px[0]) << "a foot floats";
+        EXPECT_LE(quantile(gaps.px, 0.99), 1.0) << "feet float";
         // Sunk by the bound, at most the bound below the source ground already: twice the bound, hidden in the hill.
-        EXPECT_GE(gaps.px.front(), -2.0 * frame->error_px[0]);
-        EXPECT_GE(quantile(gaps.px, 0.01), -1.5 * frame->error_px[0])
-            << "feet are sunk deeper than they need be";
+        EXPECT_GE(gaps.px.front(), -1.5 * frame->error_px[0]);
+        EXPECT_GE(quantile(gaps.px, 0.01), -1.0) << "feet are sunk deeper than they need be";
     }
 }
 

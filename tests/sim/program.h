@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "temp_folder.h"
+#include "tests/sim/temp_folder.h"
 
 namespace sim_test {
 

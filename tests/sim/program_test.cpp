@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
-#include "program.h"
+#include "tests/sim/program.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim/signals.h"
-#include "temp_folder.h"
+#include "tests/sim/temp_folder.h"
 
 namespace {
 
