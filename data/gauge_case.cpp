@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMm = 0.001;
 constexpr double kPlateFrontM = 2.2 * kMm;
-constexpr int kRound = 80;  // segments of the large circles
+constexpr int kRound = 72;  // segments of the large circles
 const glm::dvec2 kKnobAt(-24.5 * kMm, -50.0 * kMm);
 
 glm::dmat4 shifted(const glm::dvec3& by) {

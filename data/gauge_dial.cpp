@@ -55,7 +55,7 @@ void append_wheel(const Wheel& wheel, uint32_t node, Gauge& gauge) {
         target.material = gauge.material.mark;
         const char text[2] = {static_cast<char>('0' + digit), 0};
         append_extrusion(text_shape(text, glm::dvec2(0.0), wheel.digit_height_m, 0.17),
-                         {.z0 = 0.0, .z1 = 0.12 * kMm, .bevel = 0.03 * kMm}, target);
+                         {.z0 = 0.0, .z1 = 0.12 * kMm, .bevel = 0.0}, target);
     }
 }
 
@@ -76,8 +76,8 @@ void append_ticks(const TickScale& scale, uint32_t node, Gauge& gauge) {
         const Polyline line{{0.0, scale.outer_m - length + width / 2.0}, {0.0, scale.outer_m - width / 2.0}};
         SolidTarget target = target_of(gauge, node, gauge.material.mark);
         target.node_from_solid = turned_clockwise(2.0 * std::numbers::pi * tick / scale.count);
-        append_extrusion(stroke_shape({&line, 1}, width, 4),
-                         {.z0 = 0.0, .z1 = kRaisedM, .bevel = kMarkBevelM}, target);
+        append_extrusion(stroke_shape({&line, 1}, width, 2), {.z0 = 0.0, .z1 = kRaisedM, .bevel = 0.0},
+                         target);
     }
 }
 
@@ -85,8 +85,7 @@ void append_text(std::string_view text, const Lettering& lettering, uint32_t nod
     SolidTarget target = target_of(gauge, node, gauge.material.mark);
     target.node_from_solid = turned_clockwise(lettering.turn_rad);
     append_extrusion(text_shape(text, lettering.middle, lettering.height_m, lettering.weight),
-                     {.z0 = lettering.face_z_m, .z1 = lettering.face_z_m + kRaisedM, .bevel = kMarkBevelM},
-                     target);
+                     {.z0 = lettering.face_z_m, .z1 = lettering.face_z_m + kRaisedM, .bevel = 0.0}, target);
 }
 
 void append_line(const Polyline& line, double width_m, uint32_t node, Gauge& gauge) {
