@@ -4,6 +4,8 @@
 // list. Each sample is projected, and so is the point of the drawn surface straight above or below it.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include <fstream>
 
 #include "lod/scheduler.h"
@@ -26,6 +28,11 @@ struct Source {
     const char* path;  ///< from the project's root
     data::VoidPolicy voids;
 };
+
+/// Named in test lists by its name, not by the bytes of its pointers.
+void PrintTo(const Source& source, std::ostream* out) {
+    *out << source.name;
+}
 
 /// An eye over a place of the raster.
 struct Pose {
