@@ -64,6 +64,11 @@ bool is_degenerate(GridPoint a, GridPoint b, GridPoint c) {
     return int64_t(b.x - a.x) * (c.y - a.y) == int64_t(c.x - a.x) * (b.y - a.y);
 }
 
+/// How far the sample between two corners, two cells apart along each axis they differ in, is from their mean.
+float sagitta(const data::HeightGrid& grid, GridPoint p, float p_m, GridPoint q, float q_m) {
+    return std::abs(grid.at((p.x + q.x) / 2, (p.y + q.y) / 2) - 0.5f * (p_m + q_m));
+}
+
 /// A square-type triangle: legs along the axes from the apex.
 float legs_on_axes(const data::HeightGrid& grid, const TriangleCorners& t, float gx, float gy) {
     const int n = std::abs(t.left.x + t.right.x - 2 * t.apex.x);  // one of the two legs is along x
@@ -141,15 +146,21 @@ TriangleError regular_triangle_error(const data::HeightGrid& grid, const Triangl
         const GridPoint on_x = left_on_x ? t.left : t.right, on_y = left_on_x ? t.right : t.left;
         gx = ((left_on_x ? l : r) - a) / static_cast<float>(on_x.x - t.apex.x);
         gy = ((left_on_x ? r : l) - a) / static_cast<float>(on_y.y - t.apex.y);
-        worst = legs_on_axes(grid, t, gx, gy);
+        // Three quarters of all diamonds are of the two finest levels: their few samples lie on the sides.
+        worst = std::abs(on_x.x - t.apex.x) == 2
+                    ? std::max({sagitta(grid, t.left, l, t.right, r), sagitta(grid, t.apex, a, t.left, l),
+                                sagitta(grid, t.apex, a, t.right, r)})
+                    : legs_on_axes(grid, t, gx, gy);
     } else if (t.left.y == t.right.y) {
         gx = (r - l) / static_cast<float>(t.right.x - t.left.x);
         gy = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.y - t.left.y);
-        worst = hypotenuse_on_axis(grid, t, gx, gy);
+        worst = std::abs(t.apex.y - t.left.y) == 1 ? sagitta(grid, t.left, l, t.right, r)
+                                                   : hypotenuse_on_axis(grid, t, gx, gy);
     } else {
         gy = (r - l) / static_cast<float>(t.right.y - t.left.y);
         gx = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.x - t.left.x);
-        worst = hypotenuse_on_axis(grid, t, gx, gy);
+        worst = std::abs(t.apex.x - t.left.x) == 1 ? sagitta(grid, t.left, l, t.right, r)
+                                                   : hypotenuse_on_axis(grid, t, gx, gy);
     }
     return {with_rounding(worst, scale), gx, gy};
 }
