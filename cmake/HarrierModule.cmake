@@ -5,7 +5,7 @@ add_library(harrier_flags INTERFACE)
 target_include_directories(harrier_flags INTERFACE ${CMAKE_SOURCE_DIR})
 # -ffp-contract=off: LOD decisions must be bit-identical on every machine (docs/conventions.md).
 target_compile_options(harrier_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wsign-conversion
-                       -Wdouble-promotion -Werror -ffp-contract=off)
+                       $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Werror -ffp-contract=off)
 # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
 target_compile_options(harrier_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 # GCC 12's SLP vectoriser drops the rounding in `hi = float(x); lo = float(x - hi)` over three axes, which the
