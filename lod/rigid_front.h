@@ -40,7 +40,8 @@ class RigidFront final : public Front {
     /// Moves a body; takes effect with the next emit.
     void set_pose(uint32_t body, const BodyPose& pose);
 
-    /// For vertices of Material::kWallFoot: the ground's screen error of this frame, px.
+    /// For vertices of Material::kWallFoot: how far they are lowered this frame, px; what the caller allows for the
+    /// ground's screen error.
     void set_ground_error_px(double error_px);
 
     /// The local vertical at the eye, world frame, not zero: the direction in which feet of walls are

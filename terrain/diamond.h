@@ -67,7 +67,8 @@ inline GridPoint step_from(GridPoint p, int direction, int steps) {
 
 /// Direction from a diamond's centre to one of its apexes; the other is opposite (+4).
 /// Square diamonds: apexes are the corners whose coordinates, in units of 2*reach, have an odd sum.
-/// Turned ones: apexes lie on the axis along which the centre is an odd multiple of reach ... of the other axis.
+/// Turned ones: one coordinate of the centre is an odd multiple of reach, the other even; the apexes lie along the
+/// axis of the even one.
 inline int apex_direction(const Domain& domain, GridPoint centre, int level) {
     const int reach = domain.reach(level);
     if ((level & 1) == 0) {

@@ -170,7 +170,7 @@ TEST(Monaco, WallsMeetTheRenderedGround) {
         EXPECT_EQ(gaps.without_ground, 0u);
         EXPECT_LE(gaps.px.back(), 0.5 * frame->error_px[0]) << "a foot floats";
         EXPECT_LE(quantile(gaps.px, 0.99), 1.0) << "feet float";
-        // Sunk by the bound, at most the bound below the source ground already: twice the bound, hidden in the hill.
+        // Lowered by half the bound, at most the bound below the source ground already.
         EXPECT_GE(gaps.px.front(), -1.5 * frame->error_px[0]);
         EXPECT_GE(quantile(gaps.px, 0.01), -1.0) << "feet are sunk deeper than they need be";
     }
