@@ -6,7 +6,6 @@
 #include "data/height_grid.h"
 #include "data/height_raster.h"
 #include "data/raster_place.h"
-#include "sim/command_values.h"
 #include "sim/ply_writer.h"
 #include "sim/whole_file.h"
 #include "terrain/extract.h"
@@ -50,7 +49,6 @@ void add_extract(CLI::App& app, ExtractArguments& arguments) {
     app.add_option("--voids", arguments.voids, "samples without a height become a hole, or are filled")
         ->check(CLI::IsMember({"hole", "fill"}))
         ->capture_default_str();
-    add_threads(app, arguments.threads);
 }
 
 lod::Result<lod::Ok> run_extract(const ExtractArguments& arguments) {
@@ -59,7 +57,7 @@ lod::Result<lod::Ok> run_extract(const ExtractArguments& arguments) {
     reading.voids = arguments.voids == "hole" ? data::VoidPolicy::kHole : data::VoidPolicy::kFill;
     const auto grid = data::read_height_grid({arguments.source}, reading);
     if (!grid) return grid.error();
-    const terrain::ExtractedMesh mesh = terrain::extract(*grid, arguments.max_error_m, arguments.threads);
+    const terrain::ExtractedMesh mesh = terrain::extract(*grid, arguments.max_error_m);
     const auto positions = crs_positions(arguments.source, *grid, mesh);
     if (!positions) return positions.error();
 

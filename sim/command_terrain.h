@@ -13,7 +13,6 @@ struct ExtractArguments {
     double max_error_m = 1.0;
     std::string out;
     std::string voids = "hole";
-    unsigned threads = 2;
 };
 
 void add_extract(CLI::App& app, ExtractArguments& arguments);
