@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "data/ac3d_lines.h"
+
 namespace data {
 
 namespace {
@@ -19,24 +21,14 @@ glm::dvec3 numbers_of(std::string_view text) {
     return numbers;
 }
 
-/// The length after `data`: that many characters on the next lines are free text.
-size_t data_length(std::string_view line) {
-    size_t length = 0;
-    std::from_chars(line.data() + 5, line.data() + line.size(), length);
-    return length;
-}
-
 }  // namespace
 
 std::vector<glm::dvec3> ac3d_places(std::string_view content) {
     std::vector<glm::dvec3> places;
     while (!content.empty()) {
-        const std::string_view line = content.substr(0, content.find('\n'));
-        size_t taken = line.size() + 1;
+        const std::string_view line = take_ac3d_line(content);
         if (line.substr(0, 7) == "OBJECT ") places.emplace_back(0.0);
         if (line.substr(0, 4) == "loc " && !places.empty()) places.back() = numbers_of(line.substr(4));
-        if (line.substr(0, 5) == "data ") taken += data_length(line);
-        content.remove_prefix(std::min(taken, content.size()));
     }
     return places;
 }

@@ -41,15 +41,17 @@ int inflate_member(Inflater& inflater, size_t max_bytes, std::vector<uint8_t>& o
 
 lod::Result<std::vector<uint8_t>> read_file(const std::string& path, size_t max_bytes) {
     std::error_code failure;
-    if (!std::filesystem::is_regular_file(path, failure)) return lod::Error{path + ": no such file"};
+    if (!std::filesystem::is_regular_file(path, failure))
+        return lod::Error{path + ": no such file; expected one that can be read"};
     const uintmax_t size = std::filesystem::file_size(path, failure);
-    if (failure) return lod::Error{path + ": " + failure.message()};
+    if (failure) return lod::Error{path + ": " + failure.message() + "; expected a file that can be read"};
     if (size > max_bytes)
         return lod::Error{path + ": too large; expected at most " + std::to_string(max_bytes) + " bytes"};
     std::vector<uint8_t> bytes(static_cast<size_t>(size));
     std::ifstream file(path, std::ios::binary);
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!file) return lod::Error{path + ": cannot be read"};
+    if (!file)
+        return lod::Error{path + ": cannot be read; expected all of its " + std::to_string(size) + " bytes"};
     return bytes;
 }
 
@@ -62,8 +64,11 @@ lod::Result<std::vector<uint8_t>> read_gzip_file(const std::string& path, size_t
     std::vector<uint8_t> out;
     do {
         const int status = inflater.is_open ? inflate_member(inflater, max_bytes, out) : Z_MEM_ERROR;
-        if (out.size() > max_bytes || status == Z_OK) return lod::Error{path + ": too large unpacked"};
-        if (status != Z_STREAM_END) return lod::Error{path + ": damaged or truncated gzip data"};
+        if (out.size() > max_bytes || status == Z_OK)
+            return lod::Error{path + ": too large unpacked; expected at most " + std::to_string(max_bytes) +
+                              " bytes"};
+        if (status != Z_STREAM_END)
+            return lod::Error{path + ": damaged or truncated; expected whole gzip data"};
         inflateReset(&inflater.stream);
     } while (inflater.stream.avail_in > 0 && *inflater.stream.next_in == 0x1f);
     return out;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "data/feature_tags.h"
 #include "data/footprint_shape.h"
 #include "data/gdal_border.h"
 #include "data/polygon_layer.h"
+#include "data/stated_length.h"
 
 namespace data {
 
@@ -115,47 +117,66 @@ void read_feature(const LayerReader& reader, OGRFeatureH feature, Footprints& ou
     stats.by_default += !height.has_height && !height.has_levels ? 1u : 0u;
 }
 
+/// An open data source, and how it is to be read.
+struct FootprintSource {
+    const std::string& path;
+    const WorldFrame& world;
+    const FootprintOptions& options;
+    GDALDatasetH dataset;
+
+    bool is_of(std::string_view driver) const {
+        GDALDriverH own = GDALGetDatasetDriver(dataset);
+        return own != nullptr && driver == GDALGetDriverShortName(own);
+    }
+};
+
+/// How many features a layer must have: FlatGeobuf's header says it, and OGR ends early where some are missing.
+GIntBig stated_features(const FootprintSource& source, OGRLayerH layer) {
+    return source.is_of("FlatGeobuf") ? OGR_L_GetFeatureCount(layer, FALSE) : 0;
+}
+
 /// @returns whether the layer may hold areas
-lod::Result<bool> read_layer(const std::string& path, OGRLayerH layer, const WorldFrame& world,
-                             const FootprintOptions& options, Footprints& out) {
+lod::Result<bool> read_layer(const FootprintSource& source, OGRLayerH layer, Footprints& out) {
     OGRFeatureDefnH columns = OGR_L_GetLayerDefn(layer);
     const OGRwkbGeometryType kind = wkbFlatten(OGR_FD_GetGeomType(columns));
     const bool has_areas = kind == wkbUnknown || kind == wkbGeometryCollection ||
                            OGR_GT_IsSubClassOf(kind, wkbSurface) ||
                            OGR_GT_IsSubClassOf(kind, wkbMultiSurface);
     if (!has_areas) return false;
-    lod::Result<SiteTransform> site = site_transform(layer, world, path);
+    lod::Result<SiteTransform> site = site_transform(layer, source.world, source.path);
     if (!site) return site.error();
     const GeosContextPtr geos = make_geos_context();
-    const LayerReader reader{options, world, geos.get(), std::move(*site), FeatureTags(columns)};
+    const LayerReader reader{source.options, source.world, geos.get(), std::move(*site),
+                             FeatureTags(columns)};
     const uint64_t read_before = out.stats.read;
+    const GIntBig stated = stated_features(source, layer);
+    GIntBig met = 0;
     OGR_L_ResetReading(layer);
-    while (const FeaturePtr feature{OGR_L_GetNextFeature(layer)})
+    while (const FeaturePtr feature{OGR_L_GetNextFeature(layer)}) {
         read_feature(reader, static_cast<OGRFeatureH>(feature.get()), out);
+        ++met;
+    }
+    if (met < stated) {
+        return lod::Error{source.path + ": truncated: " + std::to_string(met) + " features; expected " +
+                          std::to_string(stated) + ", as its header says"};
+    }
     return kind != wkbUnknown || out.stats.read > read_before;
 }
 
-bool is_osm(GDALDatasetH source) {
-    GDALDriverH driver = GDALGetDatasetDriver(source);
-    return driver != nullptr && std::string_view(GDALGetDriverShortName(driver)) == "OSM";
-}
-
 /// OSM sources are streams: only a query on the one layer keeps the others from piling up in memory.
-lod::Result<bool> read_osm(const std::string& path, GDALDatasetH source, const WorldFrame& world,
-                           const FootprintOptions& options, Footprints& out) {
-    OGRLayerH layer = GDALDatasetExecuteSQL(source, "SELECT * FROM multipolygons WHERE building IS NOT NULL",
-                                            nullptr, nullptr);
+lod::Result<bool> read_osm(const FootprintSource& source, Footprints& out) {
+    OGRLayerH layer = GDALDatasetExecuteSQL(
+        source.dataset, "SELECT * FROM multipolygons WHERE building IS NOT NULL", nullptr, nullptr);
     if (layer == nullptr) return false;
-    const lod::Result<bool> has_areas = read_layer(path, layer, world, options, out);
-    GDALDatasetReleaseResultSet(source, layer);
+    const lod::Result<bool> has_areas = read_layer(source, layer, out);
+    GDALDatasetReleaseResultSet(source.dataset, layer);
     return has_areas;
 }
 
-lod::Result<bool> read_all_layers(const std::string& path, GDALDatasetH source, const WorldFrame& world,
-                                  const FootprintOptions& options, Footprints& out) {
+lod::Result<bool> read_all_layers(const FootprintSource& source, Footprints& out) {
     bool has_areas = false;
-    for (int i = 0; i < GDALDatasetGetLayerCount(source); ++i) {
-        const lod::Result<bool> layer = read_layer(path, GDALDatasetGetLayer(source, i), world, options, out);
+    for (int i = 0; i < GDALDatasetGetLayerCount(source.dataset); ++i) {
+        const lod::Result<bool> layer = read_layer(source, GDALDatasetGetLayer(source.dataset, i), out);
         if (!layer) return layer.error();
         has_areas |= *layer;
     }
@@ -167,16 +188,23 @@ lod::Result<bool> read_all_layers(const std::string& path, GDALDatasetH source, 
 lod::Result<Footprints> read_footprints(const std::string& path, const WorldFrame& world,
                                         const FootprintOptions& options) {
     const GdalMessages messages;
-    const DatasetPtr source(GDALOpenEx(
+    const DatasetPtr dataset(GDALOpenEx(
         path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
-    if (!source)
-        return lod::Error{path + ": cannot read footprints: " + messages.text("not a format OGR opens")};
+    if (!dataset) {
+        return lod::Error{path + ": cannot read footprints: " + messages.text("not a format OGR opens") +
+                          "; expected a whole file of polygons that OGR reads"};
+    }
+    if (const std::optional<std::string> problem = length_problem(dataset.get(), path))
+        return lod::Error{path + ": cannot read all footprints: " + *problem};
+    const FootprintSource source{path, world, options, dataset.get()};
     Footprints out;
-    const lod::Result<bool> has_areas = is_osm(source.get())
-                                            ? read_osm(path, source.get(), world, options, out)
-                                            : read_all_layers(path, source.get(), world, options, out);
+    const lod::Result<bool> has_areas =
+        source.is_of("OSM") ? read_osm(source, out) : read_all_layers(source, out);
     if (!has_areas) return has_areas.error();
-    if (messages.has_failed()) return lod::Error{path + ": cannot read all footprints: " + messages.text("")};
+    if (messages.has_failed()) {
+        return lod::Error{path + ": cannot read all footprints: " + messages.text("") +
+                          "; expected a whole file"};
+    }
     if (!*has_areas) return lod::Error{path + ": no areas in any layer; expected polygons of buildings"};
     return out;
 }

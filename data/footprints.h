@@ -51,7 +51,8 @@ struct FootprintOptions {
 /// `building:levels` (units m, ft and ' understood), also inside `other_tags`, else the default. Rings are taken to
 /// site coordinates of `world` (WGS84 longitude/latitude, or untouched without a datum); the parts of a
 /// multipolygon are buildings of their own with the same id.
-/// Fails on an unreadable or truncated file, on one that has no polygon layer, and on coordinates that are not
+/// Fails on an unreadable or truncated file (lines of CSV and GeoJSONSeq cut off whole do not show), on one that has
+/// no polygon layer, and on coordinates that are not
 /// degrees and have no CRS while the world has a datum.
 lod::Result<Footprints> read_footprints(const std::string& path, const WorldFrame& world,
                                         const FootprintOptions& options);

@@ -3,6 +3,7 @@
 #include <cpl_error.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace data {
 
@@ -20,7 +21,9 @@ void GdalMessages::receive(CPLErr severity, CPLErrorNum, const char* message) {
     if (severity != CE_Warning && severity != CE_Failure) return;
     auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
     if (self->has_failed_) return;
-    self->has_failed_ = severity == CE_Failure;
+    const bool is_cut_jpeg =
+        std::string_view(message).find("Premature end of JPEG") != std::string_view::npos;
+    self->has_failed_ = severity == CE_Failure || is_cut_jpeg;
     self->message_ = message;
     std::replace(self->message_.begin(), self->message_.end(), '\n', ' ');
 }

@@ -9,6 +9,7 @@
 namespace data {
 
 /// While it lives, what GDAL, OGR and PROJ complain about on this thread is kept here and not printed.
+/// A JPEG that ends early counts as an error, which GDAL takes for a warning and fills with grey.
 /// Registers GDAL's drivers on first use.
 class GdalMessages {
   public:

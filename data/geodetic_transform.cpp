@@ -69,7 +69,8 @@ lod::Result<GeodeticTransform> GeodeticTransform::make(const std::string& crs) {
     state->degrees_from_crs.reset(OGRCreateCoordinateTransformation(&source, &wgs84));
     state->crs_from_degrees.reset(OGRCreateCoordinateTransformation(&wgs84, &source));
     if (!state->degrees_from_crs || !state->crs_from_degrees) {
-        return lod::Error{"CRS cannot be taken to WGS84: " + messages.text("no transformation is known")};
+        return lod::Error{"CRS cannot be taken to WGS84: " + messages.text("no transformation is known") +
+                          "; expected one that PROJ can transform"};
     }
     return GeodeticTransform(std::move(state));
 }

@@ -34,12 +34,15 @@ bool is_finite(const aiVector3D& v) {
 
 std::optional<std::string> mesh_problem(const aiMesh& mesh) {
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        if (!is_finite(mesh.mVertices[i])) return "a vertex has coordinates that are not finite numbers";
+        if (!is_finite(mesh.mVertices[i]))
+            return "a vertex has coordinates that are no numbers; expected finite ones";
     }
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
         const aiFace& face = mesh.mFaces[i];
         for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
-            if (face.mIndices[corner] >= mesh.mNumVertices) return "a face names a vertex that is not there";
+            if (face.mIndices[corner] >= mesh.mNumVertices)
+                return "a face names a vertex that is not there; expected one of " +
+                       std::to_string(mesh.mNumVertices);
         }
     }
     return std::nullopt;
@@ -48,11 +51,14 @@ std::optional<std::string> mesh_problem(const aiMesh& mesh) {
 std::optional<std::string> node_problem(const aiScene& scene, const aiNode& node) {
     for (unsigned row = 0; row < 4; ++row) {
         for (unsigned col = 0; col < 4; ++col) {
-            if (!std::isfinite(node.mTransformation[row][col])) return "a node's transform is not finite";
+            if (!std::isfinite(node.mTransformation[row][col]))
+                return "a node's transform is not finite; expected numbers";
         }
     }
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        if (node.mMeshes[i] >= scene.mNumMeshes) return "a node names a mesh that is not there";
+        if (node.mMeshes[i] >= scene.mNumMeshes)
+            return "a node names a mesh that is not there; expected one of " +
+                   std::to_string(scene.mNumMeshes);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) {
         if (std::optional<std::string> problem = node_problem(scene, *node.mChildren[i])) return problem;
@@ -61,11 +67,11 @@ std::optional<std::string> node_problem(const aiScene& scene, const aiNode& node
 }
 
 std::optional<std::string> scene_problem(const aiScene& scene) {
-    if (scene.mRootNode == nullptr) return "no nodes";
+    if (scene.mRootNode == nullptr) return "no nodes; expected a polygon model";
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         if (std::optional<std::string> problem = mesh_problem(*scene.mMeshes[i])) return problem;
         if (scene.mMeshes[i]->mMaterialIndex >= scene.mNumMaterials)
-            return "a mesh names a material that is not there";
+            return "a mesh names a material that is not there; expected one of the file";
     }
     return node_problem(scene, *scene.mRootNode);
 }
@@ -133,7 +139,9 @@ lod::Result<ModelSource> open_model(const std::string& path) {
     model.importer = std::make_unique<Assimp::Importer>();
     const lod::Result<const aiScene*> scene =
         import(*model.importer, path, is_packed ? &*content : nullptr, model.extension);
-    if (!scene) return lod::Error{path + ": cannot read the model: " + one_line(scene.message())};
+    if (!scene)
+        return lod::Error{path + ": cannot read the model: " + one_line(scene.message()) +
+                          "; expected a whole file in a format that Assimp reads"};
     model.scene = *scene;
     if (const std::optional<std::string> problem = scene_problem(*model.scene))
         return lod::Error{path + ": " + *problem};

@@ -132,7 +132,7 @@ lod::Result<Motion> read_motion(const std::string& path) {
     if (fixes.size() < 2) {
         return lod::Error{path + ": " + std::to_string(fixes.size()) + " usable rows of " +
                           std::to_string(fixes.size() + recorded->dropped) +
-                          "; expected two or more with time, place and height"};
+                          "; expected two or more whole lines with time, place and height"};
     }
     Motion motion;
     motion.is_geographic = recorded->is_geographic;

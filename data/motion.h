@@ -22,7 +22,7 @@ struct Motion {
     bool is_geographic = true;  ///< sites are longitude and latitude, degrees; else x, y of the scene
     bool has_attitude =
         false;             ///< pitch and roll were recorded; else derived from the path (coordinated turns)
-    uint64_t dropped = 0;  ///< rows without position, repeated or going back in time
+    uint64_t dropped = 0;  ///< rows without position, repeated, going back in time, or cut
 
     double duration_s() const { return samples.empty() ? 0.0 : samples.back().time_s; }
 };

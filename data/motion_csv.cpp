@@ -156,9 +156,15 @@ lod::Result<MotionFixes> read_motion_csv(std::string_view content, const std::st
     MotionFixes out;
     out.is_geographic = columns->is_geographic();
     RowReader reader(*columns, out);
+    const bool has_last_end = content.empty() || content.back() == '\n' || content.back() == '\r';
     while (!content.empty()) {
         const std::string_view line = trimmed(take_line(content));
-        if (!line.empty() && line.front() != '#') reader.read(split(line, separator));
+        if (line.empty() || line.front() == '#') continue;
+        if (content.empty() && !has_last_end) {
+            ++out.dropped;
+            break;
+        }
+        reader.read(split(line, separator));
     }
     return out;
 }

@@ -53,7 +53,9 @@ lod::Result<MotionFixes> read_motion_gpx(const std::string& path) {
     const GdalMessages messages;
     const DatasetPtr source(GDALOpenEx(
         path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers, nullptr, nullptr));
-    if (!source) return lod::Error{path + ": cannot read GPX: " + messages.text("not a GPX file")};
+    if (!source)
+        return lod::Error{path + ": cannot read GPX: " + messages.text("not a GPX file") +
+                          "; expected a whole GPX track"};
     OGRLayerH points = GDALDatasetGetLayerByName(source.get(), "track_points");
     if (points == nullptr) return lod::Error{path + ": no track points; expected a GPX track"};
     OGRFeatureDefnH fields = OGR_L_GetLayerDefn(points);
@@ -64,7 +66,8 @@ lod::Result<MotionFixes> read_motion_gpx(const std::string& path) {
     while (const FeaturePtr point{OGR_L_GetNextFeature(points)})
         out.add(fix_of(static_cast<OGRFeatureH>(point.get()), time_field, height_field));
     if (messages.has_failed())
-        return lod::Error{path + ": cannot read all of the track: " + messages.text("")};
+        return lod::Error{path + ": cannot read all of the track: " + messages.text("") +
+                          "; expected a whole file"};
     return out;
 }
 

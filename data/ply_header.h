@@ -8,8 +8,7 @@
 namespace data {
 
 /// What is wrong with the header, or with the length of what follows it; empty when nothing is.
-/// @param content  the whole file; text needs a line for each element, binary data the bytes of its properties (of
-///                 lists their count at least)
+/// @param content  the whole file; text needs a whole line for each element, binary data the bytes of its properties
 std::optional<std::string> ply_problem(std::string_view content);
 
 }  // namespace data

@@ -182,10 +182,11 @@ lod::Result<lod::Ok> triangulate_faces(ModelSource& model, const std::string& pa
     try {
         model.scene = model.importer->ApplyPostProcessing(aiProcess_Triangulate);
     } catch (const std::exception& problem) {
-        return lod::Error{path + ": cannot triangulate: " + problem.what()};
+        return lod::Error{path + ": cannot triangulate: " + problem.what() + "; expected plane polygons"};
     }
     if (model.scene == nullptr)
-        return lod::Error{path + ": cannot triangulate: " + model.importer->GetErrorString()};
+        return lod::Error{path + ": cannot triangulate: " + model.importer->GetErrorString() +
+                          "; expected plane polygons"};
     return lod::Ok{};
 }
 

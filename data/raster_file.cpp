@@ -4,7 +4,10 @@
 #include <cpl_vsi.h>
 #include <ogr_srs_api.h>
 
+#include <optional>
 #include <vector>
+
+#include "data/stated_length.h"
 
 namespace data {
 
@@ -58,7 +61,11 @@ lod::Result<RasterFile> open_raster(const std::string& path, const std::string& 
     for (const std::string& name : names_to_try(path)) {
         constexpr unsigned kFlags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
         file.dataset.reset(GDALOpenEx(name.c_str(), kFlags, nullptr, nullptr, nullptr));
-        if (file.dataset && file.band_count() > 0) break;
+        if (file.dataset && file.band_count() > 0) {
+            const std::optional<std::string> problem = length_problem(file.dataset.get(), name);
+            if (problem) return lod::Error{what + " '" + path + "': " + *problem};
+            break;
+        }
         file.dataset.reset();
     }
     if (!file.dataset) {

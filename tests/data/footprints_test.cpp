@@ -32,11 +32,6 @@ std::string write_file(const std::string& name, const std::string& content) {
     return path;
 }
 
-std::string content_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // The text of a GeoJSON feature.
 std::string feature(const std::string& geometry, const std::string& properties = "") {
     return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + geometry + "}";
@@ -289,12 +284,6 @@ TEST(Footprints, TruncatedSourcesAreRefused) {
         EXPECT_FALSE(data::read_footprints(write_file("cut.geojson", whole.substr(0, length)), kPlane, {}))
             << length;
     }
-    const fs::path monaco = shared_data() / "monaco/monaco-2021.osm.pbf";
-    if (!fs::exists(monaco)) GTEST_SKIP() << "no " << monaco;
-    const std::string pbf = content_of(monaco);
-    for (size_t length = 0; length < pbf.size(); length += pbf.size() / 12 - 321)
-        EXPECT_FALSE(data::read_footprints(write_file("cut.osm.pbf", pbf.substr(0, length)), kEarth, {}))
-            << length;
 }
 
 // Sum of the polygons' areas in the layer's own units, by OGR.
