@@ -2,77 +2,15 @@
 // coordinates of what the draw list holds, with no help from the mesh's own bookkeeping.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <numeric>
-#include <optional>
-#include <unordered_map>
-
 #include "lod/scheduler.h"
 #include "terrain/roam_front.h"
+#include "tests/terrain/conformity.h"
 #include "tests/terrain/drawn_mesh.h"
 #include "tests/terrain/test_relief.h"
 
 namespace {
 
-using terrain::GridPoint;
 using terrain_test::DrawnTriangle;
-
-uint64_t key_of(GridPoint p) {
-    return static_cast<uint64_t>(p.y) << 16 | static_cast<uint64_t>(p.x);
-}
-
-/// Twice the area, in cells; positive when counter-clockwise seen from above (rows run south).
-int64_t area_of(const DrawnTriangle& t) {
-    const auto& s = t.samples;
-    return int64_t{s[2].x - s[0].x} * (s[1].y - s[0].y) - int64_t{s[1].x - s[0].x} * (s[2].y - s[0].y);
-}
-
-int64_t area_of(const std::vector<DrawnTriangle>& triangles) {
-    int64_t area = 0;
-    for (const DrawnTriangle& triangle : triangles)
-        area += area_of(triangle);
-    return area;
-}
-
-/// The vertex that lies strictly inside an edge, if one does.
-std::optional<GridPoint> vertex_inside(GridPoint a, GridPoint b,
-                                       const std::unordered_map<uint64_t, int>& vertices) {
-    const int steps = std::gcd(std::abs(b.x - a.x), std::abs(b.y - a.y));
-    for (int i = 1; i < steps; ++i) {
-        const GridPoint p{a.x + (b.x - a.x) / steps * i, a.y + (b.y - a.y) / steps * i};
-        if (vertices.count(key_of(p)) > 0) return p;
-    }
-    return std::nullopt;
-}
-
-std::string text(GridPoint p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
-}
-
-/// Empty when the triangles are conforming: every directed edge once, none folded over or empty, and no vertex
-/// inside an edge that has a triangle on one side only.
-std::string fault_of(const std::vector<DrawnTriangle>& triangles) {
-    std::unordered_map<uint64_t, int> vertices, edges;
-    const auto edge_key = [](GridPoint a, GridPoint b) { return key_of(a) << 32 | key_of(b); };
-    for (const DrawnTriangle& t : triangles) {
-        if (area_of(t) <= 0) return "a triangle at " + text(t.samples[0]) + " is empty or upside down";
-        for (size_t i = 0; i < 3; ++i) {
-            ++vertices[key_of(t.samples[i])];
-            if (++edges[edge_key(t.samples[i], t.samples[(i + 1) % 3])] > 1)
-                return "two triangles on one side of the edge at " + text(t.samples[i]);
-        }
-    }
-    for (const DrawnTriangle& t : triangles) {
-        for (size_t i = 0; i < 3; ++i) {
-            const GridPoint a = t.samples[i], b = t.samples[(i + 1) % 3];
-            if (edges.count(edge_key(b, a)) > 0) continue;
-            if (const auto p = vertex_inside(a, b, vertices)) {
-                return "T-junction: " + text(*p) + " inside " + text(a) + " to " + text(b);
-            }
-        }
-    }
-    return "";
-}
 
 /// Cuts a hole of voids into a grid.
 void add_voids(data::HeightGrid& grid, int left, int top, int side) {
@@ -123,11 +61,11 @@ void fly_and_check(const data::HeightGrid& grid, double spacing_m, int frames, u
         region.index_capacity *= 2;  // two views
         front.place(region);
         terrain_test::PoolTwin pool;
-        ASSERT_EQ(fault_of(drawn(front, view, pool)), "");
+        ASSERT_EQ(terrain_test::conformity_fault(drawn(front, view, pool)), "");
         const std::vector<DrawnTriangle> all = drawn(front, whole, pool);
-        ASSERT_EQ(fault_of(all), "");
+        ASSERT_EQ(terrain_test::conformity_fault(all), "");
         if (!grid.has_voids()) {
-            ASSERT_EQ(area_of(all), int64_t{2} * (grid.width - 1) * (grid.height - 1));
+            ASSERT_EQ(terrain_test::area_of(all), int64_t{2} * (grid.width - 1) * (grid.height - 1));
         }
         ASSERT_EQ(front.validate(), "");
     }
