@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lod/base/check.h"
+#include "lod/base/float4.h"
 
 namespace terrain {
 
@@ -28,12 +29,17 @@ struct BucketScale {
     /// Lowest edge that is told apart: 2^-12 references.
     static constexpr uint32_t kBaseBits = (127u - 12u) << 3;
 
+    /// Four at a time, as whole numbers.
     /// @param error_px  > 0, finite
+    lod::Int4 buckets_of(lod::Float4 error_px) const {
+        const lod::Int4 bits = std::bit_cast<lod::Int4>(error_px / reference_px) >> 20;
+        const lod::Int4 bucket = bits - int32_t(kBaseBits) + int32_t(kFirstErrorBucket);
+        const lod::Int4 lowest = lod::Int4{} + int32_t(kFirstErrorBucket);
+        const lod::Int4 highest = lod::Int4{} + int32_t(kBucketCount - 1u);
+        return bucket < lowest ? lowest : bucket > highest ? highest : bucket;
+    }
     Bucket bucket_of(float error_px) const {
-        const uint32_t bits = std::bit_cast<uint32_t>(error_px / reference_px) >> 20;
-        if (bits <= kBaseBits) return kFirstErrorBucket;
-        const uint32_t bucket = bits - kBaseBits + kFirstErrorBucket;
-        return static_cast<Bucket>(bucket < kBucketCount ? bucket : kBucketCount - 1u);
+        return static_cast<Bucket>(buckets_of(lod::splat(error_px))[0]);
     }
 
     /// Errors of a bucket are in [lower, upper); the topmost has no upper edge.
@@ -45,6 +51,20 @@ struct BucketScale {
         if (bucket <= kFlatBucket) return 0.0f;
         if (bucket == kBucketCount - 1) return std::numeric_limits<float>::max();
         return std::bit_cast<float>((kBaseBits + bucket - kFirstErrorBucket + 1u) << 20) * reference_px;
+    }
+
+    /// lower_px and upper_px of four buckets that hold errors.
+    lod::Float4 lowers_px(lod::Int4 bucket) const {
+        const lod::Float4 edge =
+            std::bit_cast<lod::Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket)) << 20) *
+            reference_px;
+        return bucket <= int32_t(kFirstErrorBucket) ? lod::Float4{} : edge;
+    }
+    lod::Float4 uppers_px(lod::Int4 bucket) const {
+        const lod::Float4 edge =
+            std::bit_cast<lod::Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket + 1u)) << 20) *
+            reference_px;
+        return bucket == int32_t(kBucketCount - 1u) ? lod::splat(std::numeric_limits<float>::max()) : edge;
     }
 };
 

@@ -45,7 +45,10 @@ struct Domain {
     /// From the centre of a diamond to its children's, along an axis.
     int child_step(int level) const { return (level & 1) != 0 ? reach(level) / 2 : reach(level); }
 
-    bool contains(GridPoint p) const { return p.x >= 0 && p.y >= 0 && p.x <= side() && p.y <= side(); }
+    bool contains(GridPoint p) const {
+        const unsigned last = static_cast<unsigned>(side());  // as unsigned, a negative number is a large one
+        return static_cast<unsigned>(p.x) <= last && static_cast<unsigned>(p.y) <= last;
+    }
     bool in_raster(GridPoint p) const { return p.x >= 0 && p.y >= 0 && p.x < width && p.y < height; }
     GridPoint clamped(GridPoint p) const {
         return {p.x < width ? p.x : width - 1, p.y < height ? p.y : height - 1};

@@ -29,6 +29,12 @@ BoundMaker::BoundMaker(const data::HeightGrid& grid, const Domain& domain)
     : frame_(grid.frame), domain_(domain) {
     const int col = grid.width / 2, row = grid.height / 2;
     anchor_ = frame_.world_from_sample(col, row, double(grid.at(col, row)));
+    is_planar_ = !frame_.world().has_datum;
+    if (is_planar_) {
+        origin_m_ = glm::dvec2(frame_.world_from_sample(0, 0, 0.0));
+        column_m_ = glm::dvec2(frame_.world_from_sample(1, 0, 0.0)) - origin_m_;
+        row_m_ = glm::dvec2(frame_.world_from_sample(0, 1, 0.0)) - origin_m_;
+    }
     const glm::dvec2 cell = longest_cell_m(grid);
     const auto chord = frame_.chord_error_per_cell2();
     for (int level = 0; level <= domain.finest_level() + 1; ++level) {

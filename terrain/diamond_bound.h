@@ -28,7 +28,11 @@ class BoundMaker {
     /// Cost: about 10 ns.
     DiamondBound operator()(const Diamond& d, const DiamondSource& source) const {
         const GridPoint p = domain_.clamped(d.centre());
-        const glm::dvec3 at = frame_.world_from_sample(p.x, p.y, double(source.height_m)) - anchor_;
+        const double height = double(source.height_m);
+        const glm::dvec3 at =
+            (is_planar_ ? glm::dvec3(column_m_ * double(p.x) + row_m_ * double(p.y) + origin_m_, height)
+                        : frame_.world_from_sample(p.x, p.y, height)) -
+            anchor_;
         DiamondBound bound;
         bound.centre = glm::vec3(at);
         bound.error_m = source.error_m();
@@ -45,6 +49,8 @@ class BoundMaker {
     data::GroundFrame frame_;
     Domain domain_;
     glm::dvec3 anchor_{0.0};
+    bool is_planar_ = false;  ///< then a sample lies at origin + column * x + row * y, to a nanometre
+    glm::dvec2 origin_m_{0.0}, column_m_{0.0}, row_m_{0.0};
     std::vector<float> reach_m_;  ///< [level] centre to corner, horizontally, upper bound
 };
 

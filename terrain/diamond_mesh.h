@@ -24,6 +24,8 @@ inline constexpr DiamondIndex kUnsplit = 0xfffffffeu;  ///< parent place whose d
 inline constexpr DiamondIndex kCornerCount = 4;        ///< records 0..3: the domain's corners, always there
 inline constexpr DiamondIndex kRoot = 4;               ///< record of the one diamond of level 0
 
+inline constexpr uint32_t kNoKids = 0;  ///< block of an unsplit diamond's children: all kOutside
+
 inline bool is_record(DiamondIndex index) {
     return index < kUnsplit;
 }
@@ -41,7 +43,7 @@ struct RankTag {
 struct Diamond {
     uint16_t x = 0, y = 0;                          ///< centre
     DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
-    uint32_t kids = kOutside;                       ///< block of four child indices; kOutside: unsplit
+    uint32_t kids = kNoKids;                        ///< block of four child indices
     uint16_t level : 5 = 0;                         ///< kFreeLevel: on the free list
     uint16_t apex_dir : 3 = 0;                      ///< 0 … 7, diamond.h
     uint16_t slot0 : 2 = 0;                         ///< this record's place among parent[0]'s children
@@ -52,8 +54,8 @@ struct Diamond {
 
     bool is_used() const { return level != kFreeLevel; }
 
-    int slot(int which) const { return which == 0 ? slot0 : slot1; }
-    void set_slot(int which, int side) {
+    int slot(uint32_t which) const { return which == 0 ? slot0 : slot1; }
+    void set_slot(uint32_t which, uint32_t side) {
         if (which == 0) {
             slot0 = side & 3;
         } else {
@@ -100,9 +102,7 @@ class DiamondMesh {
     uint64_t hash() const { return hash_; }
 
     DiamondIndex child(DiamondIndex index, int side) const {
-        return diamonds_[index].kids == kOutside
-                   ? kOutside
-                   : kids_[diamonds_[index].kids][static_cast<size_t>(side & 3)];
+        return kids_[diamonds_[index].kids][static_cast<size_t>(side & 3)];
     }
 
     /// The parent that must be split before `index` can be; kOutside when there is none missing.
@@ -114,6 +114,13 @@ class DiamondMesh {
     /// Merges a split diamond without split children.
     MergeOutcome merge(DiamondIndex index);
 
+    /// Back to two triangles; keeps its memory. Cost: none to speak of.
+    void clear();
+
+    /// Starts loading a record, or what splitting it will read.
+    void fetch(DiamondIndex index) const { __builtin_prefetch(&diamonds_[index]); }
+    void fetch_kin(DiamondIndex index) const;
+
     /// Orders the free records and blocks by address, so that what is made next lies together in memory: worth
     /// its time after much has been merged at once. Cost: O(record_count()), about 2 ns a record.
     void tidy();
@@ -122,11 +129,11 @@ class DiamondMesh {
     void reserve(uint64_t triangle_count);
 
   private:
-    DiamondIndex make_record(GridPoint centre, int level);
+    DiamondIndex add_record(const Diamond& d);
     void free_record(DiamondIndex index);
-    DiamondIndex neighbour(const Diamond& d, int side, int& neighbour_side) const;
-    DiamondIndex share_child(DiamondIndex index, int side, DiamondIndex other, int other_side);
-    DiamondIndex make_child(const Diamond& parent, DiamondIndex index, int side);
+    DiamondIndex neighbour(const Diamond& d, uint32_t side, uint32_t& facing) const;
+    void share_child(DiamondIndex child, DiamondIndex index, uint32_t side);
+    DiamondIndex make_child(const Diamond& parent, DiamondIndex index, uint32_t side);
     uint32_t make_kids(DiamondIndex index, SplitOutcome& outcome);
     bool drop_child(DiamondIndex child_index, DiamondIndex parent_index);
 

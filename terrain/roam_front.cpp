@@ -10,20 +10,10 @@ namespace terrain {
 namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
-/// Odometers are floats in the records: they start again before a millimetre is lost.
-constexpr double kOdometerLimit_m = 4096.0;
-/// Once this share of the mesh must be looked at again, the frame is incoherent: prune top-down first.
+/// Once this share of the mesh must be looked at again, the frame is incoherent.
 constexpr size_t kIncoherentShare = 4;
 /// Subtrees are worth taking back whole when their error is this many buckets (two octaves) below the limit.
 constexpr int kClimbMargin = 16;
-
-/// Chord of the rotation between two orientations: moves a point at distance 1 by at most this.
-double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
-    double sum = 0.0;
-    for (int i = 0; i < 3; ++i)
-        sum += glm::dot(a[i] - b[i], a[i] - b[i]);
-    return std::sqrt(sum / 2.0);
-}
 
 }  // namespace
 
@@ -40,18 +30,15 @@ RoamFront::RoamFront(const data::HeightGrid& grid, DiamondTable table, const Roa
 void RoamFront::reset() {
     split_queue_ = BucketQueue{};
     merge_queue_ = BucketQueue{};
-    std::fill(ranks_.begin(), ranks_.end(), Rank{});
-    std::fill(wake_m_.begin(), wake_m_.end(), kNever);
-    std::fill(wake_rad_.begin(), wake_rad_.end(), kNever);
-    mesh_ = DiamondMesh(table_.domain);
+    mesh_.clear();
     mesh_.reserve(options_.reserve_triangles);
     grow_arrays();
+    tessellator_.forget_vertices();
     for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
+        wake_m_[corner] = wake_rad_[corner] = kNever;
         tessellator_.add_vertex(corner);
     }
-    ranks_[kRoot].source = table_.at(mesh_[kRoot].centre(), 0);
-    enqueue(kRoot, Queue::kSplit);
-    wake_m_[kRoot] = -1.0f;  // ranked by the next frame
+    admit({&kRoot, 1});
 }
 
 /// Room for every record the mesh has; the arrays follow its capacity, so that this rarely does anything.
@@ -68,31 +55,34 @@ void RoamFront::grow_arrays() {
     chain_.reserve(256);
 }
 
-Evaluation RoamFront::evaluate_now(DiamondIndex index, Watch watch) {
-    ++evaluations_;
-    return evaluate(bound(index), eyes_, scale_, watch);
+/// @param some   one to four
+/// @param reach  how many radii around each count as its own
+FourEvaluations RoamFront::evaluate_some(std::span<const DiamondIndex> some, float reach) const {
+    FourBounds bounds;
+    lod::Int4 watches_fall{};
+    // Always four: a lane too many costs less than a branch that nobody can foresee.
+    for (size_t lane = 0; lane < 4; ++lane) {
+        const DiamondIndex index = some[lane < some.size() ? lane : 0];
+        bounds.set(static_cast<int>(lane), bound(index));
+        watches_fall[lane] = mesh_[index].is_split ? -1 : 0;
+    }
+    bounds.radius_m *= reach;
+    return evaluate(bounds, odometer_.eyes(), scale_, watches_fall);
 }
 
-/// The bucket of a diamond and of everything that hangs below it. A descendant may reach beyond its ancestor,
-/// over a side it shares with a neighbour, but stays within sqrt(2) + 1 of its radius.
-Bucket RoamFront::family_bucket(DiamondIndex index) {
-    ++evaluations_;
-    DiamondBound family = bound(index);
-    family.radius_m *= 2.4142136f;
-    return evaluate(family, eyes_, scale_, Watch::kRise).bucket;
-}
-
-/// Evaluates a record and sets when it wakes next.
-void RoamFront::rank(DiamondIndex index, Watch watch) {
-    const Evaluation now = evaluate_now(index, watch);
-    RankTag& tag = mesh_.tag(index);
-    tag.bucket = now.bucket;
-    tag.stamp = stamp_ & 63;
-    // The guard is shared out between walking and turning as this frame's motion is.
-    const float walk_m = now.guard_m * walk_share_;
-    const float turn_rad = (now.guard_m - walk_m) / (now.distance_m + walk_m + 1e-6f);
-    wake_m_[index] = (walked_m_ + walk_m) * (1.0f - 0x1p-20f);
-    wake_rad_[index] = (turned_rad_ + turn_rad) * (1.0f - 0x1p-20f);
+/// Evaluates at most four records and sets when they wake next.
+void RoamFront::rank(std::span<const DiamondIndex> some) {
+    evaluations_ += some.size();
+    const FourEvaluations now = evaluate_some(some, 1.0f);
+    lod::Float4 walk_m, turn_rad;
+    odometer_.alarms(now, walk_m, turn_rad);
+    for (size_t lane = 0; lane < some.size(); ++lane) {
+        RankTag& tag = mesh_.tag(some[lane]);
+        tag.bucket = static_cast<Bucket>(now.bucket[lane]);
+        tag.stamp = stamp_ & 63;
+        wake_m_[some[lane]] = walk_m[lane];
+        wake_rad_[some[lane]] = turn_rad[lane];
+    }
 }
 
 void RoamFront::enqueue(DiamondIndex index, Queue queue) {
@@ -102,7 +92,7 @@ void RoamFront::enqueue(DiamondIndex index, Queue queue) {
 }
 
 void RoamFront::dequeue(DiamondIndex index) {
-    if (queue_of(index) == Queue::kNone) return;
+    if (!is_queued(index)) return;
     unlink(index);
     wake_m_[index] = wake_rad_[index] = kNever;
 }
@@ -113,63 +103,46 @@ void RoamFront::unlink(DiamondIndex index) {
     mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 3;
 }
 
-/// Evaluates a queued record anew and moves it to its bucket.
-void RoamFront::refresh(DiamondIndex index) {
-    const Bucket before = bucket_of(index);
-    const Queue queue = queue_of(index);
-    rank(index, queue == Queue::kMerge ? Watch::kRiseAndFall : Watch::kRise);
-    if (bucket_of(index) == before) return;
-    queue_at(queue).remove(ranks_, index, before);
-    queue_at(queue).push(ranks_, index, bucket_of(index));
-}
-
-/// A new candidate.
-void RoamFront::admit(DiamondIndex index) {
-    ranks_[index].source = table_.at(mesh_[index].centre(), mesh_[index].level);
-    rank(index, Watch::kRise);
-    enqueue(index, Queue::kSplit);
-}
-
-void RoamFront::advance_odometers(std::span<const lod::View> views) {
-    bool is_comparable = views.size() == eyes_.size();
-    double step_m = 0.0, step_rad = 0.0;
-    for (size_t i = 0; i < views.size(); ++i) {
-        const AnchoredEye now(views[i], bound_of_.anchor_world());
-        if (i < eyes_.size()) {
-            const lod::ViewMetric& then = eyes_[i].metric;
-            is_comparable = is_comparable && then.lambda_px == now.metric.lambda_px &&
-                            then.tan_x == now.metric.tan_x && then.tan_y == now.metric.tan_y &&
-                            then.near_m == now.metric.near_m;
-            step_m = std::max(step_m, glm::length(now.eye - eyes_[i].eye));
-            step_rad = std::max(step_rad, rotation_chord(now.metric.eye_from_world, then.eye_from_world));
-        }
+/// Evaluates at most four queued records anew and moves them to their buckets.
+void RoamFront::refresh(std::span<const DiamondIndex> some) {
+    std::array<Bucket, 4> before{};
+    for (size_t i = 0; i < some.size(); ++i)
+        before[i] = bucket_of(some[i]);
+    rank(some);
+    for (size_t i = 0; i < some.size(); ++i) {
+        if (bucket_of(some[i]) == before[i]) continue;
+        BucketQueue& queue = queue_at(queue_of(some[i]));
+        queue.remove(ranks_, some[i], before[i]);
+        queue.push(ranks_, some[i], bucket_of(some[i]));
     }
-    eyes_.clear();
-    for (const lod::View& view : views)
-        eyes_.emplace_back(view, bound_of_.anchor_world());
-    odometer_m_ += step_m;
-    odometer_rad_ += step_rad;
-    // At the distance where turning moves a point as far as walking does, both get one half.
-    constexpr double kTypicalDistance_m = 2000.0;
-    walk_share_ =
-        static_cast<float>(std::clamp(step_m / (step_m + kTypicalDistance_m * step_rad + 1e-30), 0.1, 0.9));
-    if (is_comparable && odometer_m_ < kOdometerLimit_m && odometer_rad_ < kOdometerLimit_m) return;
-    // Other optics, or the odometers are full: start again. What sleeps keeps the rest of its guard, unless
-    // the optics changed: then everything wakes.
-    for (size_t i = 0; i < wake_m_.size(); ++i) {
+}
+
+/// At most four new candidates.
+void RoamFront::admit(std::span<const DiamondIndex> candidates) {
+    for (DiamondIndex index : candidates)
+        ranks_[index].source = table_.at(mesh_[index].centre(), mesh_[index].level);
+    rank(candidates);
+    for (DiamondIndex index : candidates)
+        enqueue(index, Queue::kSplit);
+}
+
+/// After the odometers began again. What sleeps keeps the rest of its guard; under other optics it wakes.
+void RoamFront::rewind_alarms(EyeOdometer::Step step) {
+    const bool holds = step == EyeOdometer::Step::kRewound;
+    for (size_t i = 0; i < mesh_.record_count(); ++i) {
         if (wake_m_[i] == kNever) continue;
-        wake_m_[i] = is_comparable ? static_cast<float>((double(wake_m_[i]) - odometer_m_) - 1e-3) : -1.0f;
+        wake_m_[i] =
+            holds ? static_cast<float>(double(wake_m_[i]) - odometer_.walked_before_m() - 1e-3) : -1.0f;
         wake_rad_[i] =
-            is_comparable ? static_cast<float>((double(wake_rad_[i]) - odometer_rad_) - 1e-7) : -1.0f;
+            holds ? static_cast<float>(double(wake_rad_[i]) - odometer_.turned_before_rad() - 1e-7) : -1.0f;
     }
-    odometer_m_ = odometer_rad_ = 0.0;
 }
 
 /// Every record whose guard this frame's motion may have used up.
 void RoamFront::collect_due() {
     constexpr size_t kBlock = 64;
     due_.clear();
-    const float walked = walked_m_, turned = turned_rad_;
+    const float walked = odometer_.walked_m(), turned = odometer_.turned_rad();
     const size_t count = mesh_.record_count();
     for (size_t begin = 0; begin < count; begin += kBlock) {
         const size_t end = std::min(count, begin + kBlock);
@@ -183,47 +156,20 @@ void RoamFront::collect_due() {
     }
 }
 
-/// Top-down over an incoherent frame: what the eye cannot see, or sees far below the tolerance, goes whole.
-void RoamFront::prune() {
-    const Bucket limit = scale_.bucket_of(scale_.reference_px * 0.25f);
-    const uint32_t before = mesh_.live_count();
-    chain_.clear();
-    if (mesh_[kRoot].is_split) chain_.push_back(kRoot);
-    while (!chain_.empty()) {
-        const DiamondIndex index = chain_.back();
-        chain_.pop_back();
-        if (!mesh_[index].is_used() || !mesh_[index].is_split) continue;
-        if (family_bucket(index) < limit) {
-            merge_subtree(index);
-            ++operations_[lod::OperationKind::kEnhMerge];
-            continue;
-        }
-        for (int side = 0; side < 4; ++side) {
-            const DiamondIndex child = mesh_.child(index, side);
-            // A diamond is reached through its second parent only, so that it is looked at once.
-            if (is_record(child) && mesh_[child].is_split &&
-                (mesh_[child].parent[1] == index || !is_record(mesh_[child].parent[1]))) {
-                chain_.push_back(child);
-            }
-        }
-    }
-    if (mesh_.live_count() < before - before / 4) mesh_.tidy();
-}
-
 void RoamFront::begin_frame(std::span<const lod::View> views, double) {
     CHECK(!views.empty());
-    advance_odometers(views);
-    walked_m_ = static_cast<float>(odometer_m_);
-    turned_rad_ = static_cast<float>(odometer_rad_);
+    const EyeOdometer::Step step = odometer_.advance(views, bound_of_.anchor_world());
+    if (step != EyeOdometer::Step::kAdvanced) rewind_alarms(step);
     ++stamp_;
     tessellator_.begin_frame();
     collect_due();
-    if (options_.is_pruning && due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64) {
-        prune();
-    }
-    for (DiamondIndex index : due_) {
-        if (queue_of(index) != Queue::kNone) refresh(index);
-    }
+    if (options_.is_pruning && due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64)
+        take_back_incoherent();
+    // Some may have gone with what was taken back.
+    std::erase_if(due_,
+                  [&](DiamondIndex index) { return index >= mesh_.record_count() || !is_queued(index); });
+    for (size_t i = 0; i < due_.size(); i += 4)
+        refresh(std::span(due_).subspan(i, std::min<size_t>(4, due_.size() - i)));
 }
 
 double RoamFront::refine_error_px() {
@@ -232,7 +178,7 @@ double RoamFront::refine_error_px() {
         if (bucket == kHiddenBucket) return 0.0;
         const DiamondIndex head = split_queue_.head(bucket);
         if (!is_fresh(head)) {
-            refresh(head);
+            refresh({&head, 1});
             continue;
         }
         return bucket == kFlatBucket ? 1e-30 : double(scale_.upper_px(bucket));
@@ -245,7 +191,7 @@ double RoamFront::coarsen_error_px() {
         const Bucket bucket = merge_queue_.lowest();
         const DiamondIndex head = merge_queue_.head(bucket);
         if (!is_fresh(head)) {
-            refresh(head);
+            refresh({&head, 1});
             continue;
         }
         return bucket <= kFlatBucket ? 0.0 : double(scale_.lower_px(bucket));
@@ -260,17 +206,36 @@ double RoamFront::error_px() {
 
 /// Splits one candidate whose parents are split.
 uint32_t RoamFront::split_one(DiamondIndex index) {
-    unlink(index);
     const SplitOutcome outcome = mesh_.split(index);
+    unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i)
         dequeue(outcome.no_longer_mergeable[i]);
-    for (uint32_t i = 0; i < outcome.created_count; ++i)
-        admit(outcome.created[i]);
+    if (outcome.created_count > 0) admit({outcome.created.data(), outcome.created_count});
     // Its evaluation stands; that it does not watch for a fall yet only delays a merge until it next wakes.
     enqueue(index, Queue::kMerge);
     return 1;
+}
+
+/// Starts loading what the next two refinements are likely to touch: the mesh is larger than the caches, and
+/// best first is a walk without locality.
+void RoamFront::fetch_ahead(DiamondIndex head) const {
+    const DiamondIndex next = ranks_[head].link.next;
+    if (next == BucketQueue::kNone) return;
+    const DiamondIndex later = ranks_[next].link.next;
+    if (later != BucketQueue::kNone) {
+        mesh_.fetch(later);
+        __builtin_prefetch(&ranks_[later]);
+    }
+    mesh_.fetch_kin(next);
+    const Diamond& d = mesh_[next];
+    if (d.level >= table_.domain.finest_level()) return;
+    for (int side = 0; side < 4; ++side) {
+        const GridPoint child =
+            step_from(d.centre(), d.apex_dir + 2 * side + 1, table_.domain.child_step(d.level));
+        if (table_.domain.contains(child)) __builtin_prefetch(&table_.at(child, d.level + 1));
+    }
 }
 
 lod::Step RoamFront::refine() {
@@ -278,6 +243,7 @@ lod::Step RoamFront::refine() {
     if (refine_error_px() <= 0.0) return step;
     const uint64_t before = mesh_.triangles();
     chain_.assign(1, split_queue_.head(split_queue_.highest()));
+    fetch_ahead(chain_.front());
     while (!chain_.empty()) {
         const DiamondIndex missing = mesh_.missing_parent(chain_.back());
         if (missing != kOutside) {
@@ -299,66 +265,10 @@ void RoamFront::merge_one(DiamondIndex index) {
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);
     for (uint32_t i = 0; i < outcome.mergeable_count; ++i) {
-        rank(outcome.mergeable[i], Watch::kRiseAndFall);
+        rank_one(outcome.mergeable[i]);
         enqueue(outcome.mergeable[i], Queue::kMerge);
     }
     enqueue(index, Queue::kSplit);  // its evaluation watched for a rise, too
-}
-
-/// enhMerge: takes back `top` and every split diamond below it. Returns how many that were.
-uint32_t RoamFront::merge_subtree(DiamondIndex top) {
-    stack_.assign(1, top);
-    merged_.clear();
-    uint32_t count = 0;
-    while (!stack_.empty()) {
-        const DiamondIndex index = stack_.back();
-        DiamondIndex below = kOutside;
-        for (int side = 0; side < 4 && mesh_[index].split_kids > 0; ++side) {
-            const DiamondIndex child = mesh_.child(index, side);
-            if (is_record(child) && mesh_[child].is_split) {
-                below = child;
-                break;
-            }
-        }
-        if (below != kOutside) {
-            stack_.push_back(below);
-            continue;
-        }
-        stack_.pop_back();
-        dequeue(index);
-        const MergeOutcome outcome = mesh_.merge(index);
-        ++count;
-        merged_.push_back(index);
-        for (uint32_t i = 0; i < outcome.removed_count; ++i)
-            dequeue(outcome.removed[i]);
-        for (uint32_t i = 0; i < outcome.mergeable_count; ++i)
-            merged_.push_back(outcome.mergeable[i]);
-    }
-    // What survived: the rim, as candidates or as diamonds that can be merged next.
-    for (DiamondIndex index : merged_) {
-        const Diamond& d = mesh_[index];
-        if (!d.is_used() || queue_of(index) != Queue::kNone || (d.is_split && d.split_kids > 0)) continue;
-        rank(index, d.is_split ? Watch::kRiseAndFall : Watch::kRise);
-        enqueue(index, d.is_split ? Queue::kMerge : Queue::kSplit);
-    }
-    return count;
-}
-
-/// The highest ancestor that may go as well: everything below it is then within the limit.
-DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
-    while (true) {
-        const Diamond& d = mesh_[index];
-        DiamondIndex next = kOutside;
-        for (DiamondIndex parent : d.parent) {
-            if (!is_record(parent) || parent < kCornerCount) continue;
-            if (family_bucket(parent) < limit) {
-                next = parent;
-                break;
-            }
-        }
-        if (next == kOutside) return index;
-        index = next;
-    }
 }
 
 lod::Step RoamFront::coarsen(double limit_px) {

@@ -21,6 +21,7 @@
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_metric.h"
 #include "terrain/diamond_table.h"
+#include "terrain/eye_odometer.h"
 #include "terrain/tessellator.h"
 
 namespace terrain {
@@ -76,27 +77,32 @@ class RoamFront final : public lod::Front {
 
     Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
     Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
+    bool is_queued(DiamondIndex index) const { return queue_of(index) != Queue::kNone; }
     /// Evaluated in this very frame (or a multiple of 64 ago, which costs order, never a bound).
     bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & 63); }
     BucketQueue& queue_at(Queue queue) { return queue == Queue::kSplit ? split_queue_ : merge_queue_; }
 
     void grow_arrays();
     DiamondBound bound(DiamondIndex index) const { return bound_of_(mesh_[index], ranks_[index].source); }
-    Evaluation evaluate_now(DiamondIndex index, Watch watch);
+    FourEvaluations evaluate_some(std::span<const DiamondIndex> some, float reach) const;
     Bucket family_bucket(DiamondIndex index);
-    void rank(DiamondIndex index, Watch watch);
+    void rank(std::span<const DiamondIndex> some);
+    void rank_one(DiamondIndex index) { rank({&index, 1}); }
     void enqueue(DiamondIndex index, Queue queue);
     void dequeue(DiamondIndex index);
     void unlink(DiamondIndex index);
-    void refresh(DiamondIndex index);
-    void admit(DiamondIndex index);
+    void refresh(std::span<const DiamondIndex> some);
+    void admit(std::span<const DiamondIndex> candidates);
+    void fetch_ahead(DiamondIndex head) const;
     uint32_t split_one(DiamondIndex index);
     void merge_one(DiamondIndex index);
     uint32_t merge_subtree(DiamondIndex top);
     DiamondIndex climb(DiamondIndex index, Bucket limit);
-    void advance_odometers(std::span<const lod::View> views);
+    void rewind_alarms(EyeOdometer::Step step);
     void collect_due();
-    void prune();
+    bool is_little_worth_keeping(Bucket limit) const;
+    void prune(Bucket limit);
+    void take_back_incoherent();
 
     const data::HeightGrid& grid_;
     DiamondTable table_;
@@ -109,10 +115,7 @@ class RoamFront final : public lod::Front {
     std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
     BucketQueue split_queue_, merge_queue_;
 
-    std::vector<AnchoredEye> eyes_;
-    double odometer_m_ = 0.0, odometer_rad_ = 0.0;
-    float walked_m_ = 0.0f, turned_rad_ = 0.0f;  ///< the odometers as the records see them
-    float walk_share_ = 0.5f;                    ///< of a guard, kept for walking; the rest for turning
+    EyeOdometer odometer_;
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
 

@@ -19,9 +19,8 @@ std::string RoamFront::validate() const {
                                                    : Queue::kNone;
         if (queue_of(i) != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
         queued += expected != Queue::kNone ? 1 : 0;
-        if (expected == Queue::kNone || eyes_.empty()) continue;
-        const Evaluation now = evaluate(bound(i), eyes_, scale_, Watch::kRise);
-        if (now.error_px > scale_.upper_px(bucket_of(i))) {
+        if (expected == Queue::kNone || odometer_.eyes().empty()) continue;
+        if (evaluate_some({&i, 1}, 1.0f).error_px[0] > scale_.upper_px(bucket_of(i))) {
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
         }
     }

@@ -60,6 +60,10 @@ void Tessellator::add_vertex(DiamondIndex index) {
     fresh_[index / kPageSize] |= uint64_t{1} << (index % kPageSize);
 }
 
+void Tessellator::forget_vertices() {
+    std::fill(fresh_.begin(), fresh_.end(), 0);
+}
+
 lod::PoolRegion Tessellator::need(uint64_t triangles, uint32_t records) {
     return {0, records, 0, static_cast<uint32_t>(3 * triangles)};
 }

@@ -29,6 +29,8 @@ class Tessellator {
   public:
     /// A diamond has been split: its vertex must be written.
     void add_vertex(DiamondIndex index);
+    /// The mesh begins anew: nothing announced so far matters.
+    void forget_vertices();
 
     /// Sizes that hold `triangles` leaf triangles and `records` vertices.
     static lod::PoolRegion need(uint64_t triangles, uint32_t records);

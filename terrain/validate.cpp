@@ -30,7 +30,7 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
         ++present;
         if (mesh[parent].centre() != apex) return fault(index, d, "parent is not its apex");
         if (!mesh[parent].is_used() || !mesh[parent].is_split) return fault(index, d, "parent is not split");
-        if (parent >= kCornerCount && mesh.child(parent, d.slot(which)) != index) {
+        if (parent >= kCornerCount && mesh.child(parent, d.slot(static_cast<uint32_t>(which))) != index) {
             return fault(index, d, "parent does not know it");
         }
     }
@@ -42,9 +42,9 @@ std::string check_children(const DiamondMesh& mesh, DiamondIndex index) {
     const Diamond& d = mesh[index];
     const Domain& domain = mesh.domain();
     if (!d.is_split)
-        return d.kids != kOutside || d.split_kids != 0 ? fault(index, d, "unsplit with children") : "";
+        return d.kids != kNoKids || d.split_kids != 0 ? fault(index, d, "unsplit with children") : "";
     if (d.level == domain.finest_level())
-        return d.kids == kOutside ? "" : fault(index, d, "finer than the grid");
+        return d.kids == kNoKids ? "" : fault(index, d, "finer than the grid");
     int split_kids = 0;
     for (int side = 0; side < 4; ++side) {
         const GridPoint at = step_from(d.centre(), d.apex_dir + 2 * side + 1, domain.child_step(d.level));

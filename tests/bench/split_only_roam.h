@@ -105,8 +105,17 @@ class SplitOnlyRoam {
                         source.height_m};
         const glm::vec3 centre = eye_->to_eye(bound.centre);
         if (eye_->distance_outside_m(centre, bound.radius_m) > 0.0f) return false;
-        return terrain::depth_error(*eye_, bound, centre, std::sqrt(glm::dot(centre, centre))).error_px >
-               tolerance_px_;
+        return error_px(bound, centre) > tolerance_px_;
+    }
+
+    /// lod::screen_error_px in single precision, for one sphere.
+    float error_px(const terrain::DiamondBound& bound, const glm::vec3& centre) const {
+        const float distance = std::sqrt(glm::dot(centre, centre)), front = -centre.z - bound.radius_m;
+        const float depth =
+            std::max({front, (distance - bound.radius_m) * eye_->inverse_stretch, eye_->near_m});
+        const float slant =
+            std::min(eye_->stretch, (distance + bound.radius_m) / std::max(front, eye_->near_m));
+        return eye_->lambda_px * bound.error_m * std::max(slant, 1.0f) / depth;
     }
 
     /// The triangle `node`, whose hypotenuse has its middle at a diamond of `level`.
