@@ -2,6 +2,7 @@
 
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Math.hpp>
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -139,6 +140,33 @@ glm::dvec2 GroundFrame::grid_from_site(const SitePoint& site) const {
     glm::dvec2 point(site.x, site.y);
     tables_->place.grid_from_sites({&point, 1});
     return point;
+}
+
+void GroundFrame::grid_from_sites(std::span<glm::dvec3> points) const {
+    CHECK(tables_);
+    std::array<glm::dvec2, 64> block;
+    while (!points.empty()) {
+        const size_t count = std::min(points.size(), block.size());
+        for (size_t i = 0; i < count; ++i)
+            block[i] = glm::dvec2(points[i]);
+        tables_->place.grid_from_sites({block.data(), count});
+        for (size_t i = 0; i < count; ++i)
+            points[i] = {block[i], points[i].z};
+        points = points.subspan(count);
+    }
+}
+
+void GroundFrame::grid_from_world(std::span<glm::dvec3> points) const {
+    for (glm::dvec3& point : points) {
+        const SitePoint site = world_.site_from_world(point);
+        point = {site.x, site.y, site.height_m};
+    }
+    grid_from_sites(points);
+}
+
+glm::dvec2 GroundFrame::full_turn_cells() const {
+    CHECK(tables_);
+    return tables_->place.full_turn_cells();
 }
 
 SitePoint GroundFrame::site_from_grid(double col, double row) const {

@@ -12,6 +12,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,14 @@ class GroundFrame {
 
     /// Grid position (column, row) of a site; may lie outside the raster. NaN when it has none.
     glm::dvec2 grid_from_site(const SitePoint& site) const;
+    /// Column, row and height of world points, in place: the foot on the vertical and the height above it.
+    /// Cost: 0.3 us each, and PROJ's 1 us where it is asked. Safe to call from several threads.
+    void grid_from_world(std::span<glm::dvec3> points) const;
+    /// The same of sites; points of the plane take x and y, the height stays.
+    void grid_from_sites(std::span<glm::dvec3> points) const;
+    /// The step in the grid that a full turn of longitude makes: places this far apart are the same. Zero where
+    /// there is no such step.
+    glm::dvec2 full_turn_cells() const;
     /// Site of a grid position at height 0.
     SitePoint site_from_grid(double col, double row) const;
 

@@ -29,46 +29,6 @@ HeightGrid make_planar_grid(int width, int height, double spacing_m, std::vector
 
 namespace {
 
-// The corner of a cell nearest to the query, its two neighbours, and the query's distance to it along each.
-struct HalfCell {
-    glm::ivec2 corner, along_row, along_col;
-    double u = 0.0, v = 0.0;  // in [0, 1], u + v <= 1
-};
-
-// Cells are cut along the diagonal of their even corners, so each half has its right angle at an odd one.
-HalfCell half_cell_at(const HeightGrid& grid, double col, double row) {
-    const glm::ivec2 cell(std::min(static_cast<int>(col), grid.width - 2),
-                          std::min(static_cast<int>(row), grid.height - 2));
-    double u = col - cell.x, v = row - cell.y;
-    const bool is_even = (cell.x + cell.y) % 2 == 0;  // the cut runs from the north-west to the south-east
-    const bool from_east = is_even ? u > v : u + v > 1.0;
-    const bool from_south = is_even ? !from_east : from_east;
-    HalfCell half;
-    half.corner = cell + glm::ivec2(from_east, from_south);
-    half.along_row = {cell.x + !from_east, half.corner.y};
-    half.along_col = {half.corner.x, cell.y + !from_south};
-    half.u = from_east ? 1.0 - u : u;
-    half.v = from_south ? 1.0 - v : v;
-    return half;
-}
-
-}  // namespace
-
-GroundHeight ground_height(const HeightGrid& grid, double col, double row) {
-    const bool is_inside = col >= 0.0 && row >= 0.0 && col <= grid.width - 1 && row <= grid.height - 1;
-    if (!is_inside || grid.width < 2 || grid.height < 2) return {};
-    const HalfCell half = half_cell_at(grid, col, row);
-    const double corner_m = double{grid.at(half.corner.x, half.corner.y)};
-    const double row_m = double{grid.at(half.along_row.x, half.along_row.y)};
-    const double col_m = double{grid.at(half.along_col.x, half.along_col.y)};
-    const bool is_void = grid.void_at(half.corner.x, half.corner.y) ||
-                         grid.void_at(half.along_row.x, half.along_row.y) ||
-                         grid.void_at(half.along_col.x, half.along_col.y);
-    return {corner_m + half.u * (row_m - corner_m) + half.v * (col_m - corner_m), !is_void};
-}
-
-namespace {
-
 // East and north of a step along a row, and of one along a column, in the raster's middle.
 glm::dmat2 compass_from_cells(const HeightRaster& raster, const GroundFrame& frame) {
     const double col = (raster.width - 1) * 0.5, row = (raster.height - 1) * 0.5;
@@ -107,7 +67,7 @@ lod::Result<HeightGrid> grid_from(HeightRaster raster, VoidPolicy policy) {
     grid.min_m = min_m;
     grid.max_m = max_m;
     grid.height_m = std::move(raster.height_m);
-    if (has_void && policy == VoidPolicy::kHole) grid.is_void = std::move(raster.is_void);
+    if (has_void) (policy == VoidPolicy::kHole ? grid.is_void : grid.is_filled) = std::move(raster.is_void);
     return grid;
 }
 

@@ -20,6 +20,8 @@ struct HeightGrid {
     int width = 0, height = 0;     ///< samples; both >= 1
     std::vector<float> height_m;   ///< [height * width]
     std::vector<uint8_t> is_void;  ///< [height * width], 1: no measurement; empty when there is none at all
+    /// [height * width], 1: was void and is filled, so it counts as measured; empty when there is none
+    std::vector<uint8_t> is_filled;
     GroundFrame frame;
     float min_m = 0.0f, max_m = 0.0f;  ///< over valid samples
 
@@ -28,17 +30,9 @@ struct HeightGrid {
     }
     float at(int col, int row) const { return height_m[index(col, row)]; }
     bool void_at(int col, int row) const { return !is_void.empty() && is_void[index(col, row)] != 0; }
+    bool filled_at(int col, int row) const { return !is_filled.empty() && is_filled[index(col, row)] != 0; }
     bool has_voids() const { return !is_void.empty(); }
 };
-
-/// Height of the source surface at a grid position, on the triangles of the full-resolution bintree mesh: each
-/// cell is cut along the diagonal that joins its even corners (col + row even).
-/// @returns metres; `valid` is false outside the raster and where a corner of the triangle is void
-struct GroundHeight {
-    double height_m = 0.0;
-    bool valid = false;
-};
-GroundHeight ground_height(const HeightGrid& grid, double col, double row);
 
 /// What becomes of voids.
 enum class VoidPolicy : uint8_t {

@@ -44,6 +44,11 @@ class RasterPlace {
     /// In place, the inverse; may lie outside the raster.
     void grid_from_sites(std::span<glm::dvec2> points) const;
 
+    /// Cells in a full turn of longitude, along columns and rows; zero unless the CRS is geographic.
+    glm::dvec2 full_turn_cells() const {
+        return affine_.cells_from_crs * glm::dvec2(transform_.full_turn(), 0.0);
+    }
+
   private:
     RasterPlace(const RasterAffine& affine, GeodeticTransform transform);
     bool is_wgs84_degrees(int width, int height) const;

@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/ground_height.h"
+
 namespace objects {
 
 namespace {
-
-/// Fractions at which a coordinate that runs from `a` to `b` meets multiples of `spacing`.
-void append_multiples(double a, double b, double spacing, std::vector<double>& out) {
-    const double first = std::ceil(std::min(a, b) / spacing), last = std::floor(std::max(a, b) / spacing);
-    for (double multiple = first; multiple <= last; multiple += 1.0) {
-        const double fraction = (multiple * spacing - a) / (b - a);
-        if (fraction > 0.0 && fraction < 1.0) out.push_back(fraction);
-    }
-}
 
 glm::dvec2 plane_from_site(const Ground& ground, const glm::dvec2& site) {
     return ground.grid == nullptr ? site : ground.grid->frame.grid_from_site({site.x, site.y, 0.0});
@@ -34,18 +27,6 @@ glm::dvec3 world_at(const Ground& ground, const glm::dvec2& plane, double height
     return ground.grid->frame.world_from_grid(plane.x, plane.y, height_m);
 }
 
-void mesh_crossings(const glm::dvec2& a, const glm::dvec2& b, std::vector<double>& out) {
-    constexpr double kSame = 1e-9;  // fractions nearer than this are one crossing
-    out.clear();
-    append_multiples(a.x, b.x, 1.0, out);
-    append_multiples(a.y, b.y, 1.0, out);
-    append_multiples(a.x - a.y, b.x - b.y, 2.0, out);
-    append_multiples(a.x + a.y, b.x + b.y, 2.0, out);
-    std::sort(out.begin(), out.end());
-    const auto same = [](double left, double right) { return right - left < kSame; };
-    out.erase(std::unique(out.begin(), out.end(), same), out.end());
-}
-
 bool lay_ring(const Ground& ground, std::span<const glm::dvec2> ring, Footing& out) {
     out.feet.clear();
     out.first_foot.clear();
@@ -59,7 +40,7 @@ bool lay_ring(const Ground& ground, std::span<const glm::dvec2> ring, Footing& o
         if (!append_foot(ground, a, out)) return false;  // corners inside bound the number of crossings
         if (ground.grid == nullptr) continue;
         if (!data::ground_height(*ground.grid, b.x, b.y).valid) return false;
-        mesh_crossings(a, b, crossings);
+        data::mesh_crossings(a, b, crossings);
         for (double fraction : crossings) {
             if (!append_foot(ground, a + (b - a) * fraction, out)) return false;
         }

@@ -37,10 +37,6 @@ struct Footing {
 /// World position of a point of the plane at a height.
 glm::dvec3 world_at(const Ground& ground, const glm::dvec2& plane, double height_m);
 
-/// Where the segment from `a` to `b` crosses the edges of the terrain mesh: fractions of its length, inside
-/// (0, 1), ascending, none twice. `out` is cleared first.
-void mesh_crossings(const glm::dvec2& a, const glm::dvec2& b, std::vector<double>& out);
-
 /// Lays a ring of site points on the ground. Cost: one height per foot, a world position for none.
 /// @returns false when some foot is outside the terrain or on a void; `out` is then incomplete
 bool lay_ring(const Ground& ground, std::span<const glm::dvec2> ring, Footing& out);

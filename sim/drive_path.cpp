@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/ground_height.h"
 #include "sim/site_metres.h"
 #include "sim/time_window.h"
 
@@ -15,9 +16,7 @@ constexpr double kSmoothing_s = 0.5;  // half width
 constexpr double kHalfWheelbase_m = 1.4, kHalfTrack_m = 0.8;
 
 data::GroundHeight ground_at(const DrivePath& path, const data::SitePoint& site) {
-    if (!path.ground) return {site.height_m, true};
-    const glm::dvec2 grid = path.ground->frame.grid_from_site(site);
-    return data::ground_height(*path.ground, grid.x, grid.y);
+    return path.ground ? data::ground_height(*path.ground, site) : data::GroundHeight{site.height_m, true};
 }
 
 /// Rise from one side of the car to the other over the distance between; 0 where the ground is unknown.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/ground_height.h"
 #include "sim/site_metres.h"
 
 namespace sim {
@@ -16,9 +17,7 @@ EyeState state_at(const EyeState& state, double) {
 }
 
 data::GroundHeight ground_below(const data::HeightGrid* ground, const data::SitePoint& site) {
-    if (!ground) return {};
-    const glm::dvec2 grid = ground->frame.grid_from_site(site);
-    return data::ground_height(*ground, grid.x, grid.y);
+    return ground ? data::ground_height(*ground, site) : data::GroundHeight{};
 }
 
 bool is_place(const data::WorldFrame& frame, const data::SitePoint& site) {

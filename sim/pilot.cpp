@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/ground_height.h"
 #include "sim/site_metres.h"
 
 namespace sim {
@@ -23,8 +24,7 @@ void move(EyeState& state, const World& world, const glm::dvec3& enu_m) {
     state.site = moved(world.frame, state.site, glm::dvec2(enu_m));
     state.site.height_m = height_m;
     if (!world.ground) return;
-    const glm::dvec2 grid = world.ground->frame.grid_from_site(state.site);
-    const data::GroundHeight ground = data::ground_height(*world.ground, grid.x, grid.y);
+    const data::GroundHeight ground = data::ground_height(*world.ground, state.site);
     if (ground.valid) state.site.height_m = std::max(height_m, ground.height_m + kGroundClearance_m);
 }
 

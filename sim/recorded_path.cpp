@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "data/ground_height.h"
+
 namespace sim {
 
 EyeState state_at(const RecordedPath& path, double time_s) {
@@ -27,8 +29,7 @@ EyeState state_at(const RecordedPath& path, double time_s) {
 uint64_t lift_fixes(data::Motion& motion, const data::HeightGrid& ground, double clearance_m) {
     uint64_t lifted = 0;
     for (data::MotionSample& sample : motion.samples) {
-        const glm::dvec2 grid = ground.frame.grid_from_site(sample.site);
-        const data::GroundHeight below = data::ground_height(ground, grid.x, grid.y);
+        const data::GroundHeight below = data::ground_height(ground, sample.site);
         if (!below.valid || sample.site.height_m >= below.height_m + clearance_m) continue;
         sample.site.height_m = below.height_m + clearance_m;
         ++lifted;

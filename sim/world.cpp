@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/ground_height.h"
 #include "data/polygon_mesh.h"
 #include "objects/buildings.h"
 #include "sim/ground_texture.h"
@@ -202,8 +203,7 @@ std::vector<lod::Front*> fronts_of(const World& world) {
 
 double ground_height_m(const World& world, const data::SitePoint& site) {
     if (!world.ground) return 0.0;
-    const glm::dvec2 grid = world.ground->frame.grid_from_site(site);
-    const data::GroundHeight ground = data::ground_height(*world.ground, grid.x, grid.y);
+    const data::GroundHeight ground = data::ground_height(*world.ground, site);
     return ground.valid ? ground.height_m : 0.0;
 }
 

@@ -1,4 +1,4 @@
-#include "data/height_grid.h"
+#include "data/ground_height.h"
 
 #include <gtest/gtest.h>
 

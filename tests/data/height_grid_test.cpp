@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "data/ground_height.h"
 #include "tests/data/relief.h"
 
 namespace {

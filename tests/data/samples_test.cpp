@@ -9,6 +9,7 @@
 #include "data/footprints.h"
 #include "data/generated_altimeter.h"
 #include "data/generated_town.h"
+#include "data/ground_height.h"
 #include "data/height_grid.h"
 
 namespace data {

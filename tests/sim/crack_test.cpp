@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "data/ground_height.h"
 #include "lod/base/rng.h"
 #include "lod/scheduler.h"
 #include "render/renderer.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/ground_height.h"
 #include "lod/base/rng.h"
 #include "sim/drive_path.h"
 #include "sim/flight_path.h"
