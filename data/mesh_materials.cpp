@@ -68,7 +68,7 @@ class TextureShelf {
             index = static_cast<int32_t>(out_.textures.size());
             out_.textures.push_back(std::move(*texture));
         } else {
-            ++out_.missing_textures;
+            out_.missing_textures.push_back(name);
         }
         by_name_.emplace(name, index);
         return index;

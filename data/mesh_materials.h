@@ -17,10 +17,10 @@ struct MaterialUse {
 };
 
 struct MaterialSet {
-    std::vector<MeshMaterial> materials;  ///< [scene.mNumMaterials]
-    std::vector<MaterialUse> uses;        ///< the same
-    std::vector<MeshTexture> textures;    ///< each image once
-    uint64_t missing_textures = 0;        ///< images that are named and cannot be read
+    std::vector<MeshMaterial> materials;        ///< [scene.mNumMaterials]
+    std::vector<MaterialUse> uses;              ///< the same
+    std::vector<MeshTexture> textures;          ///< each image once
+    std::vector<std::string> missing_textures;  ///< images that are named and cannot be read
 };
 
 /// @param model_path  textures are looked for relative to it, then by their plain name beside it

@@ -2,6 +2,7 @@
 
 #include <assimp/config.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <exception>
@@ -108,6 +109,26 @@ void correct_face_kinds(const aiScene& scene) {
     }
 }
 
+/// Material files that an OBJ names and that are not beside it; Assimp also tries the model's own name.
+std::vector<std::string> missing_libraries(std::string_view content, const std::filesystem::path& path) {
+    constexpr std::string_view kWord = "mtllib ";
+    std::vector<std::string> missing;
+    std::error_code failure;
+    const auto is_there = [&](const std::filesystem::path& file) {
+        return std::filesystem::is_regular_file(file, failure);
+    };
+    if (is_there(std::filesystem::path(path).replace_extension(".mtl"))) return missing;
+    while (!content.empty()) {
+        std::string_view line = content.substr(0, content.find_first_of("\r\n"));
+        content.remove_prefix(std::min(line.size() + 1, content.size()));
+        if (line.substr(0, kWord.size()) != kWord) continue;
+        line.remove_prefix(std::min(line.find_first_not_of(' ', kWord.size()), line.size()));
+        line = line.substr(0, line.find_last_not_of(" \t") + 1);
+        if (!is_there(path.parent_path() / line)) missing.emplace_back(line);
+    }
+    return missing;
+}
+
 size_t count_nodes(const aiNode& node) {
     size_t count = 1;
     for (unsigned i = 0; i < node.mNumChildren; ++i)
@@ -147,6 +168,7 @@ lod::Result<ModelSource> open_model(const std::string& path) {
         return lod::Error{path + ": " + *problem};
     correct_face_kinds(*model.scene);
     if (is_ac3d(model.extension)) model.node_shifts = ac3d_places(text);
+    if (model.extension == "obj") model.missing_libraries = missing_libraries(text, path);
     if (model.node_shifts.size() != count_nodes(*model.scene->mRootNode)) model.node_shifts.clear();
     return model;
 }

@@ -21,6 +21,7 @@ struct ModelSource {
     /// What was added to the vertices of the nodes' meshes and belongs to the nodes' transforms (data/ac3d_places.h),
     /// by node, depth first; empty where nothing was.
     std::vector<glm::dvec3> node_shifts;
+    std::vector<std::string> missing_libraries;  ///< of an OBJ: material files that are named and not there
 };
 
 /// Opens `path`; `.gz` is unpacked in memory (4 GiB at the most), then neighbouring files are not found.

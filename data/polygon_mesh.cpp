@@ -209,7 +209,9 @@ lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshS
 
     const FormatTraits traits = traits_of(model->extension);
     MaterialSet materials = read_materials(*model->scene, path, traits.is_linear);
-    met.missing_textures = materials.missing_textures;
+    met.missing_files = std::move(materials.missing_textures);
+    met.missing_files.insert(met.missing_files.end(), model->missing_libraries.begin(),
+                             model->missing_libraries.end());
     const MeshReader reader{*model->scene, traits, materials, baking_of(materials), model->node_shifts};
     PolygonMesh mesh;
     append_nodes(reader, *model->scene->mRootNode, -1, mesh, met);

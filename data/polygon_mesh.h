@@ -49,10 +49,11 @@ struct PolygonMesh {
 
 /// What the reader met.
 struct PolygonMeshStats {
-    uint64_t polygons = 0;               ///< faces in the file
-    uint64_t larger_than_triangles = 0;  ///< of those, with more than three corners
-    uint64_t dropped_faces = 0;          ///< points, lines, triangles with two equal corners
-    uint64_t missing_textures = 0;       ///< images named but unreadable: the material's colour is used
+    uint64_t polygons = 0;                   ///< faces in the file
+    uint64_t larger_than_triangles = 0;      ///< of those, with more than three corners
+    uint64_t dropped_faces = 0;              ///< points, lines, triangles with two equal corners
+    std::vector<std::string> missing_files;  ///< textures (then the material's colour is used) and material
+                                             ///< libraries (then grey) that are named and cannot be read
 };
 
 /// Reads a polygon model through Assimp: AC3D, glTF/GLB, OBJ, PLY, STL and whatever else it opens; .gz by zlib.

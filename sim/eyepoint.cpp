@@ -55,6 +55,10 @@ lod::Result<Eyepoint> make_recorded(const std::string& file, const data::WorldFr
                                     const data::HeightGrid* ground, std::vector<std::string>& notes) {
     lod::Result<data::Motion> motion = data::read_motion(file);
     if (!motion) return motion.error();
+    if (motion->dropped > 0) {
+        notes.push_back(fmt::format("{}: {} of {} rows are no fixes (no place, repeated or cut), left out",
+                                    file, motion->dropped, motion->dropped + motion->samples.size()));
+    }
     if (ground) {
         const uint64_t lifted = lift_fixes(*motion, *ground, kGroundClearance_m);
         if (lifted > 0) {

@@ -95,9 +95,11 @@ lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, M
 lod::Result<data::PolygonMesh> read_model(World& world, const std::string& path) {
     data::PolygonMeshStats stats;
     lod::Result<data::PolygonMesh> mesh = data::read_polygon_mesh(path, &stats);
-    if (mesh && stats.missing_textures > 0) {
-        world.notes.push_back(fmt::format("{}: {} textures are missing, drawn in the material's colour", path,
-                                          stats.missing_textures));
+    if (mesh && !stats.missing_files.empty()) {
+        world.notes.push_back(
+            fmt::format("{}: drawn in plain colours: {} of its textures or material files cannot be read, "
+                        "the first is '{}'; expected it beside the model",
+                        path, stats.missing_files.size(), stats.missing_files.front()));
     }
     if (mesh) say_progress(fmt::format("model: {}, {} triangles", path, mesh->triangle_count()));
     return mesh;

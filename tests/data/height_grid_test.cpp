@@ -15,10 +15,8 @@ using data::HeightGrid;
 using test::count_voids;
 using test::expect_invariants;
 using test::failure;
-using test::kHoles;
 using test::RasterSpec;
 using test::read;
-using test::relief_spec;
 
 struct RealRaster {
     std::string path;
@@ -155,52 +153,6 @@ TEST(HeightGrid, RefusesWithOneLine) {
     expect({test::write_raster("beyond.tif", one)}, "latitude");
     one = {.width = 2, .height = 2, .values = {1, 2, 3, 4}, .type = GDT_CFloat32};
     expect({test::write_raster("complex.tif", one)}, "complex");
-}
-
-// A file cut anywhere either fails with a line or, where only what nobody needs is lost, reads as the whole.
-void expect_safe_truncations(const std::string& path, const std::string& cut_name, size_t step) {
-    const HeightGrid whole = read({path});
-    const std::vector<unsigned char> bytes = test::file_bytes(path);
-    size_t survivors = 0;
-    for (size_t size = 0; size < bytes.size(); size += step) {
-        const std::string cut =
-            test::write_bytes(cut_name, {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)});
-        const auto grid = data::read_height_grid({cut}, kHoles);
-        if (!grid) {
-            ASSERT_NE(grid.message().find(cut_name), std::string::npos) << grid.message();
-            ASSERT_EQ(grid.message().find('\n'), std::string::npos) << grid.message();
-        } else {
-            ++survivors;
-            ASSERT_EQ(grid->height_m, whole.height_m) << path << " cut at " << size;
-        }
-        VSIUnlink(cut.c_str());
-    }
-    EXPECT_LE(survivors, bytes.size() / step / 10) << path;
-}
-
-TEST(HeightGrid, TruncatedFilesAreRefused) {
-    RasterSpec spec = relief_spec(70, 60, {7, 0.01, 0, 44, 0, -0.01});
-    for (const std::vector<std::string>& options :
-         std::vector<std::vector<std::string>>{{},
-                                               {"COMPRESS=DEFLATE"},
-                                               {"TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16"},
-                                               {"COMPRESS=LZW", "PREDICTOR=3"}}) {
-        spec.options = options;
-        SCOPED_TRACE(options.empty() ? "plain" : options[0]);
-        expect_safe_truncations(test::write_raster("whole.tif", spec), "cut.tif", 101);
-    }
-    std::vector<unsigned char> hgt(1201 * 1201 * 2);
-    for (size_t i = 0; i < hgt.size(); i += 2)
-        hgt[i] = 1, hgt[i + 1] = static_cast<unsigned char>(i / 1000);
-    const std::string path = test::write_bytes("whole/N43E007.hgt", hgt);
-    expect_safe_truncations(path, "cut/N43E007.hgt", 40'000);
-}
-
-TEST(HeightGrid, TruncatedRealFilesAreRefused) {
-    const std::string folder = test::real_data("");
-    if (!test::exists(folder + "terrain")) GTEST_SKIP() << "no shared/data beside the project";
-    expect_safe_truncations(folder + "terrain/jacksboro_srtm3.tif", "cut.tif", 1024);
-    expect_safe_truncations(folder + "monaco/N43E007.hgt.zip", "N43E007.hgt.zip", 16 * 1024);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(MeshColours, TexturesBecomeVertexColours) {
         write_file("quarters.obj", textured_obj("polygon_mesh_quarters.mtl")), &stats);
     ASSERT_TRUE(mesh) << mesh.message();
     check_promises(*mesh);
-    EXPECT_EQ(stats.missing_textures, 0u);
+    EXPECT_TRUE(stats.missing_files.empty());
     ASSERT_EQ(mesh->textures.size(), 1u);
     EXPECT_EQ(mesh->textures[0].width, 64);
     EXPECT_EQ(mesh->textures[0].rgba[2], 255);  // row 0 is the lower one, blue
@@ -99,11 +99,21 @@ TEST(MeshColours, MissingTexturesLeaveTheMaterialsColour) {
     const auto mesh =
         data::read_polygon_mesh(write_file("missing.obj", textured_obj("polygon_mesh_missing.mtl")), &stats);
     ASSERT_TRUE(mesh) << mesh.message();
-    EXPECT_EQ(stats.missing_textures, 1u);
+    EXPECT_EQ(stats.missing_files, std::vector<std::string>{"nowhere.png"});
     for (const MeshNode& node : mesh->nodes) {
         for (const glm::u8vec4& colour : node.colours)
             EXPECT_EQ(colour, glm::u8vec4(51, 102, 153, 128));
     }
+}
+
+TEST(MeshColours, MissingMaterialFilesAreNamed) {
+    PolygonMeshStats stats;
+    ASSERT_TRUE(
+        data::read_polygon_mesh(write_file("bare.obj", textured_obj("no materials here.mtl")), &stats));
+    EXPECT_EQ(stats.missing_files, std::vector<std::string>{"no materials here.mtl"});
+    write_file("own name.mtl", "newmtl paint\nKd 0.2 0.4 0.6\n");
+    ASSERT_TRUE(data::read_polygon_mesh(write_file("own name.obj", textured_obj("elsewhere.mtl")), &stats));
+    EXPECT_TRUE(stats.missing_files.empty()) << "the model's own name serves too";
 }
 
 TEST(MeshColours, PlyVertexColoursAreTaken) {
