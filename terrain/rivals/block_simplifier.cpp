@@ -200,7 +200,7 @@ void BlockSimplifier::collapse(uint16_t vertex, uint16_t target, float cost_m) {
                 if (corner != vertex) std::erase(vertices_[corner].star, index);
             }
             removed_.push_back(index);
-            ++record.removed;
+            --active_triangles_;
             continue;
         }
         for (uint16_t& corner : triangle.corners) {
@@ -213,7 +213,6 @@ void BlockSimplifier::collapse(uint16_t vertex, uint16_t target, float cost_m) {
         ++record.fixed;
     }
     v.star.clear();
-    active_triangles_ -= record.removed;
     collapses_.push_back(record);
     leave_side(vertex, cost_m);
 }
@@ -253,59 +252,55 @@ void BlockSimplifier::add_stop() {
     }
 }
 
+/// New numbers: what is left first, then what went last.
+BlockSimplifier::Numbers BlockSimplifier::renumber() const {
+    Numbers numbers{std::vector<uint16_t>(vertices_.size()), std::vector<uint16_t>(triangles_.size())};
+    uint16_t next = 0;
+    for (size_t i = 0; i < vertices_.size(); ++i) {
+        if (!vertices_[i].is_gone) numbers.vertex[i] = next++;
+    }
+    for (size_t i = collapses_.size(); i-- > 0;)
+        numbers.vertex[collapses_[i].vertex] = next++;
+    next = 0;
+    for (size_t i = 0; i < triangles_.size(); ++i) {
+        if (!triangles_[i].is_gone) numbers.triangle[i] = next++;
+    }
+    for (size_t i = removed_.size(); i-- > 0;)
+        numbers.triangle[removed_[i]] = next++;
+    return numbers;
+}
+
 ProgressiveBlock BlockSimplifier::result() const {
+    const Numbers numbers = renumber();
+    const auto collapse_count = static_cast<uint32_t>(collapses_.size());
     ProgressiveBlock block;
     block.origin = origin_;
     block.size = size_;
-    // New numbers: what is left first, then what went last.
-    std::vector<uint16_t> new_vertex(vertices_.size()), new_triangle(triangles_.size());
-    const auto add_place = [&](size_t vertex) {
-        const GridPoint p = place(static_cast<uint16_t>(vertex));
-        new_vertex[vertex] = static_cast<uint16_t>(block.places.size());
-        block.places.push_back({static_cast<uint8_t>(p.x), static_cast<uint8_t>(p.y)});
-    };
-    for (size_t i = 0; i < vertices_.size(); ++i) {
-        if (!vertices_[i].is_gone) add_place(i);
-    }
-    block.base_vertices = static_cast<uint32_t>(block.places.size());
-    for (size_t i = collapses_.size(); i-- > 0;)
-        add_place(collapses_[i].vertex);
-    uint16_t next = 0;
-    for (size_t i = 0; i < triangles_.size(); ++i) {
-        if (!triangles_[i].is_gone) new_triangle[i] = next++;
-    }
-    for (size_t i = removed_.size(); i-- > 0;)
-        new_triangle[removed_[i]] = next++;
-
-    block.corners.resize(triangles_.size());
-    for (size_t i = 0; i < triangles_.size(); ++i) {
-        for (size_t k = 0; k < 3; ++k)
-            block.corners[new_triangle[i]][k] = new_vertex[triangles_[i].corners[k]];
-    }
-    size_t fix = fixed_.size();
-    for (size_t i = collapses_.size(); i-- > 0;) {
-        const Collapse& c = collapses_[i];
-        block.splits.push_back({new_vertex[c.target], c.removed, c.fixed});
-        for (int k = 0; k < c.fixed; ++k)
-            block.fixes.push_back(new_triangle[fixed_[--fix]]);
-    }
-    for (size_t i = stops_.size(); i-- > 0;) {
-        ProgressiveBlock::Stop stop = stops_[i];
-        stop.splits = static_cast<uint32_t>(collapses_.size()) - stop.splits;
-        stop.fixes = static_cast<uint32_t>(fixed_.size()) - stop.fixes;
-        block.stops.push_back(stop);
-    }
+    block.base_vertices = static_cast<uint32_t>(vertices_.size()) - collapse_count;
+    block.places.resize(vertices_.size());
     block.rim_vertex.resize(4 * 65);
     for (size_t i = 0; i < vertices_.size(); ++i) {
         const GridPoint p = place(static_cast<uint16_t>(i));
+        block.places[numbers.vertex[i]] = {static_cast<uint8_t>(p.x), static_cast<uint8_t>(p.y)};
+        const bool is_on[4] = {p.y == 0, p.x == size_.x, p.y == size_.y, p.x == 0};
         for (int side = 0; side < 4; ++side) {
-            const GridPoint on = side == 0   ? GridPoint{p.x, 0}
-                                 : side == 1 ? GridPoint{size_.x, p.y}
-                                 : side == 2 ? GridPoint{p.x, size_.y}
-                                             : GridPoint{0, p.y};
-            if (on == p)
-                block.rim_vertex[static_cast<size_t>(side * 65 + along_side(side, p))] = new_vertex[i];
+            if (is_on[side])
+                block.rim_vertex[static_cast<size_t>(side * 65 + along_side(side, p))] = numbers.vertex[i];
         }
+    }
+    block.corners.resize(triangles_.size());
+    for (size_t i = 0; i < triangles_.size(); ++i) {
+        for (size_t k = 0; k < 3; ++k)
+            block.corners[numbers.triangle[i]][k] = numbers.vertex[triangles_[i].corners[k]];
+    }
+    for (size_t i = fixed_.size(); i-- > 0;)
+        block.fixes.push_back(numbers.triangle[fixed_[i]]);
+    for (size_t i = collapses_.size(); i-- > 0;)
+        block.splits.push_back({numbers.vertex[collapses_[i].target], collapses_[i].fixed});
+    for (size_t i = stops_.size(); i-- > 0;) {
+        ProgressiveBlock::Stop& stop = block.stops.emplace_back(stops_[i]);
+        stop.splits = collapse_count - stop.splits;
+        stop.fixes = static_cast<uint32_t>(fixed_.size()) - stop.fixes;
     }
     return block;
 }

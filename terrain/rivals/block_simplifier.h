@@ -47,7 +47,12 @@ class BlockSimplifier {
     };
     struct Collapse {
         uint16_t vertex, target;
-        uint8_t removed = 0, fixed = 0;
+        uint16_t fixed = 0;
+    };
+
+    /// [old] new numbers.
+    struct Numbers {
+        std::vector<uint16_t> vertex, triangle;
     };
 
     GridPoint place(uint16_t vertex) const { return {vertex % (size_.x + 1), vertex / (size_.x + 1)}; }
@@ -64,6 +69,7 @@ class BlockSimplifier {
     void collapse(uint16_t vertex, uint16_t target, float cost_m);
     void leave_side(uint16_t vertex, float cost_m);
     void add_stop();
+    Numbers renumber() const;
 
     const data::HeightGrid& grid_;
     GridPoint origin_, size_;

@@ -22,9 +22,8 @@ struct ProgressiveBlock {
         uint8_t x = 0, y = 0;
     };
     struct Split {
-        uint16_t vertex = 0;        ///< the one that is split
-        uint8_t new_triangles = 0;  ///< 1 on the border, else 2
-        uint8_t fix_count = 0;      ///< triangles in which the new vertex takes its place
+        uint16_t vertex = 0;     ///< the one that is split
+        uint16_t fix_count = 0;  ///< triangles in which the new vertex takes its place
     };
     /// A place in the sequence where a front may stand.
     struct Stop {
@@ -58,7 +57,7 @@ struct ProgressiveBlock {
 /// Collapses the block's vertices in the order of the error that each brings, as far as possible; errors are exact
 /// maxima over all covered samples. Border vertices go by powers of two, corners stay.
 /// @param origin  the block's north-west sample @param size  cells along x and y, 1 … 64
-/// Cost: about 10 us per sample.
+/// Cost: about 5 us per sample.
 ProgressiveBlock make_progressive_block(const data::HeightGrid& grid, GridPoint origin, GridPoint size);
 
 }  // namespace terrain

@@ -6,25 +6,27 @@
 namespace terrain {
 namespace {
 
-int64_t floor_div(int64_t a, int64_t b) {  // b > 0
-    return a >= 0 ? a / b : -((-a + b - 1) / b);
+int floor_div(int a, int b) {  // b > 0
+    const int quotient = a / b;
+    return quotient - (quotient * b > a ? 1 : 0);
 }
 
-/// Columns of one row that lie inside or on a triangle, exactly.
+/// Columns of one row that lie inside or on a triangle, exactly: products stay below 2^31 for 32769 samples a side.
 struct RowSpan {
-    int64_t first = INT32_MAX, last = INT32_MIN;
+    int first = INT32_MAX, last = INT32_MIN;
 
     void cut(GridPoint p, GridPoint q, int y) {
         if (p.y > q.y) std::swap(p, q);
         if (y < p.y || y > q.y) return;
         if (p.y == q.y) {
-            first = std::min<int64_t>({first, p.x, q.x});
-            last = std::max<int64_t>({last, p.x, q.x});
+            first = std::min({first, p.x, q.x});
+            last = std::max({last, p.x, q.x});
             return;
         }
-        const int64_t height = q.y - p.y, along = int64_t{q.x - p.x} * (y - p.y);
-        first = std::min(first, p.x - floor_div(-along, height));
-        last = std::max(last, p.x + floor_div(along, height));
+        const int height = q.y - p.y, along = (q.x - p.x) * (y - p.y);
+        const int floor = floor_div(along, height);
+        last = std::max(last, p.x + floor);
+        first = std::min(first, p.x + floor + (floor * height < along ? 1 : 0));
     }
 };
 
@@ -42,9 +44,9 @@ double max_residual_m(const data::HeightGrid& grid, const GridPoint corners[3], 
         span.cut(b, c, y);
         span.cut(c, a, y);
         const double row_m = plane.base_m + plane.per_row_m * (y - a.y);
-        for (int64_t x = span.first; x <= span.last; ++x) {
-            const double plane_m = row_m + plane.per_col_m * static_cast<double>(x - a.x);
-            worst = std::max(worst, std::abs(double(grid.at(static_cast<int>(x), y)) - plane_m));
+        for (int x = span.first; x <= span.last; ++x) {
+            const double plane_m = row_m + plane.per_col_m * (x - a.x);
+            worst = std::max(worst, std::abs(double(grid.at(x, y)) - plane_m));
         }
     }
     return worst;

@@ -14,7 +14,7 @@ inline int64_t twice_area(GridPoint a, GridPoint b, GridPoint c) {
 /// Upper bound, metres along the local vertical: the exact maximum of |sample - plane| over every sample the
 /// triangle covers, border included, plus what chords lose on the curved Earth (terrain/diamond_table.h). Zero for
 /// an empty triangle and for half a cell, which is the source surface itself.
-/// Cost: O(samples of the bounding box's rows), about 15 ns when no sample but the corners is covered.
+/// Cost: O(covered samples and rows), about 15 ns when no sample but the corners is covered.
 float surface_error_m(const data::HeightGrid& grid, GridPoint a, GridPoint b, GridPoint c);
 
 }  // namespace terrain

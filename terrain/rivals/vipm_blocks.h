@@ -18,7 +18,7 @@ class VipmBlocks final : public LadderFront {
   public:
     /// @param grid   must outlive the front
     /// @param cells  along a block's side: a power of two, 2 … 64
-    /// Cost: about 10 us per sample and thread.
+    /// Cost: about 5 us of one thread per sample.
     VipmBlocks(const data::HeightGrid& grid, int cells, unsigned threads);
 
     lod::PoolRegion pool_need() const override;
