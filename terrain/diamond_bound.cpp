@@ -6,17 +6,17 @@ namespace terrain {
 namespace {
 
 /// The longest cell side anywhere in the raster, metres: along rows, along columns.
-glm::dvec2 longest_cell_m(const data::HeightGrid& grid) {
+glm::dvec2 longest_cell_m(const DiamondTable& table) {
     constexpr int kProbes = 8;
     glm::dvec2 longest(0.0);
     for (int i = 0; i <= kProbes; ++i) {
         for (int j = 0; j <= kProbes; ++j) {
-            const int col = (grid.width - 2) * i / kProbes;
-            const int row = (grid.height - 2) * j / kProbes;
-            const double top = double(grid.max_m);
-            const glm::dvec3 here = grid.frame.world_from_sample(col, row, top);
-            const glm::dvec3 east = grid.frame.world_from_sample(col + 1, row, top);
-            const glm::dvec3 south = grid.frame.world_from_sample(col, row + 1, top);
+            const int col = (table.domain.width - 2) * i / kProbes;
+            const int row = (table.domain.height - 2) * j / kProbes;
+            const double top = double(table.max_m);
+            const glm::dvec3 here = table.frame.world_from_sample(col, row, top);
+            const glm::dvec3 east = table.frame.world_from_sample(col + 1, row, top);
+            const glm::dvec3 south = table.frame.world_from_sample(col, row + 1, top);
             longest = glm::max(longest, glm::dvec2(glm::length(east - here), glm::length(south - here)));
         }
     }
@@ -25,17 +25,17 @@ glm::dvec2 longest_cell_m(const data::HeightGrid& grid) {
 
 }  // namespace
 
-BoundMaker::BoundMaker(const data::HeightGrid& grid, const Domain& domain)
-    : frame_(grid.frame), domain_(domain) {
-    const int col = grid.width / 2, row = grid.height / 2;
-    anchor_ = frame_.world_from_sample(col, row, double(grid.at(col, row)));
+BoundMaker::BoundMaker(const DiamondTable& table) : frame_(table.frame), domain_(table.domain) {
+    const Domain& domain = table.domain;
+    anchor_ = frame_.world_from_sample(domain.width / 2, domain.height / 2,
+                                       0.5 * (double(table.min_m) + double(table.max_m)));
     is_planar_ = !frame_.world().has_datum;
     if (is_planar_) {
         origin_m_ = glm::dvec2(frame_.world_from_sample(0, 0, 0.0));
         column_m_ = glm::dvec2(frame_.world_from_sample(1, 0, 0.0)) - origin_m_;
         row_m_ = glm::dvec2(frame_.world_from_sample(0, 1, 0.0)) - origin_m_;
     }
-    const glm::dvec2 cell = longest_cell_m(grid);
+    const glm::dvec2 cell = longest_cell_m(table);
     const auto chord = frame_.chord_error_per_cell2();
     for (int level = 0; level <= domain.finest_level() + 1; ++level) {
         const double reach = domain.reach(std::min(level, domain.finest_level()));

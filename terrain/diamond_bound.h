@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "data/height_grid.h"
+#include "data/ground_frame.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_table.h"
 
@@ -21,7 +21,7 @@ struct DiamondBound {
 /// Makes bounds on the fly, from a record and eight bytes of the table; nothing is stored per diamond.
 class BoundMaker {
   public:
-    BoundMaker(const data::HeightGrid& grid, const Domain& domain);
+    explicit BoundMaker(const DiamondTable& table);
 
     const glm::dvec3& anchor_world() const { return anchor_; }
 

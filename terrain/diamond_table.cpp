@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lod/base/check.h"
 #include "lod/base/parallel.h"
@@ -64,7 +65,8 @@ DiamondSource outline(const LevelPass& pass, GridPoint centre, int apex_dir) {
         const GridPoint q = domain.clamped(p);
         rise = std::max(rise, std::abs(pass.grid.at(q.x, q.y) - source.height_m));
     }
-    source.rise_code = encode_length(rise);
+    source.set_rise(rise);
+    if (pass.grid.void_at(at.x, at.y)) source.rise_and_voids |= DiamondSource::kVoidCentre;
     return source;
 }
 
@@ -72,7 +74,6 @@ void fill_diamond(const LevelPass& pass, GridPoint centre) {
     DiamondTable& table = pass.table;
     const Domain& domain = table.domain;
     const int apex_dir = apex_direction(domain, centre, pass.level);
-    const size_t index = table.index(centre, pass.level);
     DiamondSource source = outline(pass, centre, apex_dir);
     float error_m = 0.0f;
     for (int half = 0; half < 2; ++half) {
@@ -82,9 +83,7 @@ void fill_diamond(const LevelPass& pass, GridPoint centre) {
         if (!domain.contains(t.apex)) continue;
         const HalfResult one = half_error(pass, t);
         error_m = std::max(error_m, one.error_m);
-        if (one.is_empty)
-            table.empty_halves[index] =
-                static_cast<uint8_t>(table.empty_halves[index] | (1 << half_bit(dir)));
+        if (one.is_empty) source.set_half_empty(dir);
     }
     source.error_code = encode_length(error_m);
     if (pass.level < domain.finest_level()) {
@@ -94,7 +93,8 @@ void fill_diamond(const LevelPass& pass, GridPoint centre) {
             source.error_code = std::max(source.error_code, table.at(child, pass.level + 1).error_code);
         }
     }
-    table.sources[index] = source;
+    const PagePlace place = table.layout.place(centre, pass.level);
+    table.slots[table.slot_of_page[place.page] * kPageEntries + place.entry] = source;
 }
 
 void fill_row(const LevelPass& pass, int y) {
@@ -119,25 +119,6 @@ void fill_level(const LevelPass& pass, unsigned threads) {
     });
 }
 
-/// Room for every diamond of the domain. Those that do not reach into the raster stay zero.
-void lay_out(DiamondTable& table) {
-    const Domain& domain = table.domain;
-    size_t size = 0;
-    for (int level = 0; level <= domain.finest_level(); ++level) {
-        const int reach = domain.reach(level);
-        const bool turned = (level & 1) != 0;
-        const int shift = std::countr_zero(static_cast<unsigned>(reach));
-        DiamondTable::Level l;
-        l.first = size;
-        l.column_shift = shift + 1;
-        l.row_shift = turned ? shift : shift + 1;
-        l.columns = static_cast<size_t>(domain.side() >> l.column_shift) + 1;
-        size += l.columns * (static_cast<size_t>(domain.side() >> l.row_shift) + 1);
-        table.levels.push_back(l);
-    }
-    table.sources.resize(size);
-}
-
 }  // namespace
 
 uint16_t encode_length(float length_m) {
@@ -148,12 +129,31 @@ uint16_t encode_length(float length_m) {
     return static_cast<uint16_t>(std::min(bits - kBase + 1u, 65535u));
 }
 
-DiamondTable make_diamond_table(const data::HeightGrid& grid, unsigned threads) {
+DiamondTable make_table_frame(const data::HeightGrid& grid) {
     CHECK(grid.width >= 2 && grid.height >= 2 && grid.width <= 32769 && grid.height <= 32769);
-    DiamondTable table;
-    table.domain = make_domain(grid.width, grid.height);
-    lay_out(table);
-    if (grid.has_voids()) table.empty_halves.resize(table.sources.size());
+    const Domain domain = make_domain(grid.width, grid.height);
+    DiamondTable table{.domain = domain,
+                       .layout = PageLayout(domain),
+                       .frame = grid.frame,
+                       .min_m = grid.min_m,
+                       .max_m = grid.max_m,
+                       .has_voids = grid.has_voids(),
+                       .corners = {},
+                       .slot_of_page = {},
+                       .slots = {}};
+    for (int corner = 0; corner < 4; ++corner) {
+        const GridPoint p = domain.clamped({(corner & 1) * domain.side(), (corner >> 1) * domain.side()});
+        table.corners[corner].height_m = grid.at(p.x, p.y);
+        if (grid.void_at(p.x, p.y)) table.corners[corner].rise_and_voids = DiamondSource::kVoidCentre;
+    }
+    table.slot_of_page.assign(table.layout.page_count(), DiamondTable::kAbsent);
+    return table;
+}
+
+DiamondTable make_diamond_table(const data::HeightGrid& grid, unsigned threads) {
+    DiamondTable table = make_table_frame(grid);
+    std::iota(table.slot_of_page.begin(), table.slot_of_page.end(), 0u);
+    table.slots.resize(table.layout.page_count() * kPageEntries);
     for (int level = table.domain.finest_level(); level >= 0; --level) {
         const int reach = table.domain.reach(level);
         const double cells = reach * ((level & 1) == 0 ? 2.0 * std::sqrt(2.0) : 2.0);

@@ -16,7 +16,7 @@ struct Leaf {
 /// A Visitor has
 ///   a type State, copied down the tree,
 ///   bool enter(DiamondIndex, State&): whether to go on below the triangles of this diamond,
-///   void leaf(const Leaf&, const Diamond*, int half): a leaf; the diamond whose half it is, null for a half cell.
+///   void leaf(const Leaf&, DiamondIndex, int half): a leaf; the record whose half it is, kOutside for half a cell.
 template <typename Visitor>
 class LeafWalk {
   public:
@@ -41,7 +41,7 @@ class LeafWalk {
         if (!visitor_.enter(index, state)) return;
         const DiamondIndex apex = d.parent[half];
         if (!d.is_split) {
-            visitor_.leaf({apex, left, right}, &d, half);
+            visitor_.leaf({apex, left, right}, index, half);
             return;
         }
         // Sides 0 and 3 belong to the apex in apex_dir, 1 and 2 to the one opposite.
@@ -54,7 +54,7 @@ class LeafWalk {
                const typename Visitor::State& state) {
         const DiamondIndex child = mesh_.child(index, side);
         if (child == kOutside) {  // finer than the grid: half a cell
-            visitor_.leaf({index, left, right}, nullptr, 0);
+            visitor_.leaf({index, left, right}, kOutside, 0);
             return;
         }
         triangle(child, mesh_[child].parent[0] == index ? 0 : 1, left, right, state);

@@ -17,24 +17,20 @@ constexpr int kClimbMargin = 16;
 
 }  // namespace
 
-RoamFront::RoamFront(const data::HeightGrid& grid, DiamondTable table, const RoamOptions& options)
-    : grid_(grid),
-      table_(std::move(table)),
-      options_(options),
-      bound_of_(grid, table_.domain),
-      mesh_(table_.domain) {
+RoamFront::RoamFront(DiamondTable table, const RoamOptions& options)
+    : table_(std::move(table)), options_(options), bound_of_(table_), mesh_(table_.domain) {
     scale_.reference_px = options.tolerance_px > 0.0 ? static_cast<float>(options.tolerance_px) : 1.0f;
     reset();
 }
 
 void RoamFront::reset() {
-    split_queue_ = BucketQueue{};
-    merge_queue_ = BucketQueue{};
+    queues_ = {};
     mesh_.clear();
     mesh_.reserve(options_.reserve_triangles);
     grow_arrays();
     tessellator_.forget_vertices();
     for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
+        ranks_[corner].source = table_.corners[corner];
         wake_m_[corner] = wake_rad_[corner] = kNever;
         tessellator_.add_vertex(corner);
     }
@@ -173,10 +169,10 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double) {
 }
 
 double RoamFront::refine_error_px() {
-    while (!split_queue_.is_empty()) {
-        const Bucket bucket = split_queue_.highest();
+    while (!splits().is_empty()) {
+        const Bucket bucket = splits().highest();
         if (bucket == kHiddenBucket) return 0.0;
-        const DiamondIndex head = split_queue_.head(bucket);
+        const DiamondIndex head = splits().head(bucket);
         if (!is_fresh(head)) {
             refresh({&head, 1});
             continue;
@@ -187,9 +183,9 @@ double RoamFront::refine_error_px() {
 }
 
 double RoamFront::coarsen_error_px() {
-    while (!merge_queue_.is_empty()) {
-        const Bucket bucket = merge_queue_.lowest();
-        const DiamondIndex head = merge_queue_.head(bucket);
+    while (!merges().is_empty()) {
+        const Bucket bucket = merges().lowest();
+        const DiamondIndex head = merges().head(bucket);
         if (!is_fresh(head)) {
             refresh({&head, 1});
             continue;
@@ -200,8 +196,11 @@ double RoamFront::coarsen_error_px() {
 }
 
 double RoamFront::error_px() {
-    if (split_queue_.is_empty()) return 0.0;
-    return double(scale_.upper_px(split_queue_.highest()));
+    double worst = 0.0;
+    for (BucketQueue* queue : {&splits(), &waits()}) {
+        if (!queue->is_empty()) worst = std::max(worst, double(scale_.upper_px(queue->highest())));
+    }
+    return worst;
 }
 
 /// Splits one candidate whose parents are split.
@@ -238,21 +237,46 @@ void RoamFront::fetch_ahead(DiamondIndex head) const {
     }
 }
 
+bool RoamFront::are_children_here(DiamondIndex index) const {
+    const Diamond& d = mesh_[index];
+    if (d.level >= table_.domain.finest_level()) return true;
+    for (int side = 0; side < 4; ++side) {
+        const GridPoint child =
+            step_from(d.centre(), d.apex_dir + 2 * side + 1, table_.domain.child_step(d.level));
+        if (table_.domain.contains(child) && table_.find(child, d.level + 1) == nullptr) return false;
+    }
+    return true;
+}
+
+/// The splits that one split needs, last first; false when a page for one of them is absent. A chain, not a tree:
+/// a record has one parent that is split.
+bool RoamFront::make_chain(DiamondIndex head) {
+    chain_.assign(1, head);
+    while (true) {
+        if (is_paged_ && !are_children_here(chain_.back())) return false;
+        const DiamondIndex missing = mesh_.missing_parent(chain_.back());
+        if (missing == kOutside) return true;
+        chain_.push_back(missing);
+    }
+}
+
 lod::Step RoamFront::refine() {
     lod::Step step;
-    if (refine_error_px() <= 0.0) return step;
     const uint64_t before = mesh_.triangles();
-    chain_.assign(1, split_queue_.head(split_queue_.highest()));
-    fetch_ahead(chain_.front());
-    while (!chain_.empty()) {
-        const DiamondIndex missing = mesh_.missing_parent(chain_.back());
-        if (missing != kOutside) {
-            chain_.push_back(missing);
+    while (refine_error_px() > 0.0) {
+        const DiamondIndex head = splits().head(splits().highest());
+        fetch_ahead(head);
+        if (!make_chain(head)) {
+            unlink(head);
+            enqueue(head, Queue::kWait);
             continue;
         }
-        step.steps += split_one(chain_.back());
-        chain_.pop_back();
-        ++operations_[chain_.empty() ? lod::OperationKind::kSplit : lod::OperationKind::kForcedSplit];
+        while (!chain_.empty()) {
+            step.steps += split_one(chain_.back());
+            chain_.pop_back();
+            ++operations_[chain_.empty() ? lod::OperationKind::kSplit : lod::OperationKind::kForcedSplit];
+        }
+        break;
     }
     step.triangle_delta = static_cast<int64_t>(mesh_.triangles() - before);
     return step;
@@ -275,8 +299,8 @@ lod::Step RoamFront::coarsen(double limit_px) {
     lod::Step step;
     if (coarsen_error_px() > limit_px) return step;
     const uint64_t before = mesh_.triangles();
-    const Bucket bucket = merge_queue_.lowest();
-    const DiamondIndex head = merge_queue_.head(bucket);
+    const Bucket bucket = merges().lowest();
+    const DiamondIndex head = merges().head(bucket);
     const Bucket limit = limit_px > 0.0 ? scale_.bucket_of(static_cast<float>(limit_px)) : kFlatBucket;
     const bool is_far_below = bucket == kHiddenBucket || bucket + kClimbMargin <= limit;
     const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, limit) : head;
@@ -300,11 +324,11 @@ lod::PoolRegion RoamFront::pool_need() const {
 }
 
 void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
-    tessellator_.emit({grid_, table_, mesh_, bound_of_}, view, out);
+    tessellator_.emit({table_, mesh_, ranks_, bound_of_}, view, out);
 }
 
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {
-    return std::make_unique<RoamFront>(grid, make_diamond_table(grid, options.threads), options);
+    return std::make_unique<RoamFront>(make_diamond_table(grid, options.threads), options);
 }
 
 }  // namespace terrain

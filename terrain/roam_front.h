@@ -12,14 +12,15 @@
 // operation. Differs from both: priorities are re-evaluated lazily, bounded by the eye's motion.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
-#include "data/height_grid.h"
 #include "lod/front.h"
 #include "terrain/bucket_queue.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_metric.h"
+#include "terrain/diamond_rank.h"
 #include "terrain/diamond_table.h"
 #include "terrain/eye_odometer.h"
 #include "terrain/tessellator.h"
@@ -37,9 +38,7 @@ struct RoamOptions {
 
 class RoamFront final : public lod::Front {
   public:
-    /// @param grid    must outlive the front
-    /// @param table   of the same grid
-    RoamFront(const data::HeightGrid& grid, DiamondTable table, const RoamOptions& options);
+    RoamFront(DiamondTable table, const RoamOptions& options);
 
     void begin_frame(std::span<const lod::View> views, double time_s) override;
     double refine_error_px() override;
@@ -67,20 +66,18 @@ class RoamFront final : public lod::Front {
     uint64_t memory_bytes() const;
 
   private:
-    enum class Queue : uint8_t { kNone, kSplit, kMerge };
-    /// What ranks a record, beside the two bytes of its tag.
-    struct Rank {
-        DiamondSource source;
-        BucketLink link;
-    };
-    static_assert(sizeof(Rank) == 16);
+    /// kWait: a candidate whose children's page is absent.
+    enum class Queue : uint8_t { kNone, kSplit, kMerge, kWait };
 
     Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
     Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
     bool is_queued(DiamondIndex index) const { return queue_of(index) != Queue::kNone; }
     /// Evaluated in this very frame (or a multiple of 64 ago, which costs order, never a bound).
     bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & 63); }
-    BucketQueue& queue_at(Queue queue) { return queue == Queue::kSplit ? split_queue_ : merge_queue_; }
+    BucketQueue& queue_at(Queue queue) { return queues_[static_cast<size_t>(queue) - 1]; }
+    BucketQueue& splits() { return queue_at(Queue::kSplit); }
+    BucketQueue& merges() { return queue_at(Queue::kMerge); }
+    BucketQueue& waits() { return queue_at(Queue::kWait); }
 
     void grow_arrays();
     DiamondBound bound(DiamondIndex index) const { return bound_of_(mesh_[index], ranks_[index].source); }
@@ -94,6 +91,8 @@ class RoamFront final : public lod::Front {
     void refresh(std::span<const DiamondIndex> some);
     void admit(std::span<const DiamondIndex> candidates);
     void fetch_ahead(DiamondIndex head) const;
+    bool are_children_here(DiamondIndex index) const;
+    bool make_chain(DiamondIndex head);
     uint32_t split_one(DiamondIndex index);
     void merge_one(DiamondIndex index);
     uint32_t merge_subtree(DiamondIndex top);
@@ -104,28 +103,27 @@ class RoamFront final : public lod::Front {
     void prune(Bucket limit);
     void take_back_incoherent();
 
-    const data::HeightGrid& grid_;
     DiamondTable table_;
     RoamOptions options_;
     BucketScale scale_;
     BoundMaker bound_of_;
 
     DiamondMesh mesh_;
-    std::vector<Rank> ranks_;               ///< [record]
+    std::vector<DiamondRank> ranks_;        ///< [record]
     std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
-    BucketQueue split_queue_, merge_queue_;
+    std::array<BucketQueue, 3> queues_;     ///< kSplit, kMerge, kWait
 
     EyeOdometer odometer_;
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
 
+    bool is_paged_ = false;  ///< some pages are absent
     Tessellator tessellator_;
     lod::OperationCounts operations_;
     uint64_t evaluations_ = 0;
 };
 
 /// Computes the errors (about a second for 4097 x 4097 samples) and starts at the coarsest mesh.
-/// @param grid  must outlive the front
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options);
 
 }  // namespace terrain

@@ -17,7 +17,9 @@ std::string RoamFront::validate() const {
                                : !d.is_split       ? Queue::kSplit
                                : d.split_kids == 0 ? Queue::kMerge
                                                    : Queue::kNone;
-        if (queue_of(i) != expected) return "diamond " + std::to_string(i) + " is in the wrong queue";
+        const bool waits = expected == Queue::kSplit && queue_of(i) == Queue::kWait;
+        if (queue_of(i) != expected && !waits)
+            return "diamond " + std::to_string(i) + " is in the wrong queue";
         queued += expected != Queue::kNone ? 1 : 0;
         if (expected == Queue::kNone || odometer_.eyes().empty()) continue;
         if (evaluate_some({&i, 1}, 1.0f).error_px[0] > scale_.upper_px(bucket_of(i))) {
@@ -25,9 +27,9 @@ std::string RoamFront::validate() const {
         }
     }
     uint64_t linked = 0;
-    for (const BucketQueue* queue : {&split_queue_, &merge_queue_}) {
+    for (const BucketQueue& queue : queues_) {
         for (uint32_t b = 0; b < kBucketCount; ++b) {
-            for (uint32_t i = queue->head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
+            for (uint32_t i = queue.head(static_cast<Bucket>(b)); i != BucketQueue::kNone;
                  i = ranks_[i].link.next) {
                 if (bucket_of(i) != b) return "diamond " + std::to_string(i) + " hangs in the wrong bucket";
                 if (++linked > queued) return "a queue has a loop or a stray record";
@@ -38,7 +40,7 @@ std::string RoamFront::validate() const {
 }
 
 uint64_t RoamFront::memory_bytes() const {
-    const uint64_t record = sizeof(Diamond) + sizeof(Rank) + 2 * sizeof(float);
+    const uint64_t record = sizeof(Diamond) + sizeof(DiamondRank) + 2 * sizeof(float);
     const uint64_t split = (mesh_.triangles() - 2) / 2;
     return mesh_.live_count() * record + split * sizeof(std::array<DiamondIndex, 4>);
 }

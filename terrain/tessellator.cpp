@@ -25,7 +25,7 @@ struct IndexWriter {
     bool enter(DiamondIndex index, State& state) const {
         if (state == State::kInside) return true;
         const Diamond& d = input.mesh[index];
-        const DiamondBound bound = input.bound_of(d, input.table.at(d.centre(), d.level));
+        const DiamondBound bound = input.bound_of(d, input.ranks[index].source);
         const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), bound.radius_m);
         if (outside > 0.0f) return false;
         if (outside < -2.0f * bound.radius_m) state = State::kInside;
@@ -33,7 +33,7 @@ struct IndexWriter {
     }
 
     /// Counter-clockwise seen from above: rows run south, so left and right change places.
-    void leaf(const Leaf& leaf, const Diamond* diamond, int half) const {
+    void leaf(const Leaf& leaf, DiamondIndex diamond, int half) const {
         if (!cover.is_drawn(leaf, diamond, half)) return;
         indices.push_back(leaf.apex);
         indices.push_back(leaf.right);
@@ -44,7 +44,8 @@ struct IndexWriter {
 lod::Vertex ground_vertex(const TessellationInput& input, DiamondIndex index) {
     const GridPoint p = input.mesh.domain().clamped(input.mesh[index].centre());
     lod::Vertex vertex;
-    const glm::dvec3 world = input.grid.frame.world_from_sample(p.x, p.y, double(input.grid.at(p.x, p.y)));
+    const glm::dvec3 world =
+        input.table.frame.world_from_sample(p.x, p.y, double(input.ranks[index].source.height_m));
     lod::split_hi_lo(world, vertex.position_hi, vertex.position_lo);
     vertex.surface[0] = static_cast<uint16_t>(p.x);
     vertex.surface[1] = static_cast<uint16_t>(p.y);
@@ -123,7 +124,7 @@ void Tessellator::emit(const TessellationInput& input, const lod::View& view, lo
     }
     const size_t first = indices_.size();
     const AnchoredEye eye(view, input.bound_of.anchor_world());
-    IndexWriter writer{input, eye, {input.grid, input.table, input.mesh}, indices_};
+    IndexWriter writer{input, eye, {input.table, input.mesh, input.ranks}, indices_};
     LeafWalk(input.mesh, writer).run(IndexWriter::State::kUnknown);
     emitted_ = (indices_.size() - first) / 3;
     CHECK(indices_.size() <= region_.index_capacity);

@@ -8,20 +8,19 @@
 #include <span>
 #include <vector>
 
-#include "data/height_grid.h"
 #include "lod/draw_list.h"
 #include "lod/view.h"
 #include "terrain/diamond_bound.h"
 #include "terrain/diamond_mesh.h"
-#include "terrain/diamond_table.h"
+#include "terrain/diamond_rank.h"
 
 namespace terrain {
 
 /// What the walk reads; all of it belongs to the front.
 struct TessellationInput {
-    const data::HeightGrid& grid;
     const DiamondTable& table;
     const DiamondMesh& mesh;
+    std::span<const DiamondRank> ranks;  ///< [record]
     const BoundMaker& bound_of;
 };
 

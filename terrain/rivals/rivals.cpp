@@ -20,7 +20,7 @@ std::unique_ptr<RivalFront> make_rival(Rival kind, const data::HeightGrid& grid,
         case Rival::kVipmBlocks:
             return std::make_unique<VipmBlocks>(grid, cells, options.threads);
         case Rival::kRoamMergeOnly:
-            return std::make_unique<RoamMergeOnly>(grid, table, options.tolerance_px);
+            return std::make_unique<RoamMergeOnly>(table, options.tolerance_px);
         case Rival::kCount:
             break;
     }

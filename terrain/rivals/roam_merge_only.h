@@ -12,10 +12,9 @@ namespace terrain {
 
 class RoamMergeOnly final : public RivalFront {
   public:
-    /// @param grid          must outlive the front
     /// @param tolerance_px  what the scheduler will ask for
-    RoamMergeOnly(const data::HeightGrid& grid, DiamondTable table, double tolerance_px)
-        : front_(grid, std::move(table), options_for(tolerance_px)) {}
+    RoamMergeOnly(DiamondTable table, double tolerance_px)
+        : front_(std::move(table), options_for(tolerance_px)) {}
 
     void begin_frame(std::span<const lod::View> views, double time_s) override {
         front_.begin_frame(views, time_s);
@@ -34,7 +33,7 @@ class RoamMergeOnly final : public RivalFront {
     uint64_t emitted_triangles() const override { return front_.emitted_triangles(); }
     std::string validate() const override { return front_.validate(); }
     uint64_t memory_bytes() const override {
-        return front_.memory_bytes() + front_.table().sources.size() * sizeof(DiamondSource);
+        return front_.memory_bytes() + front_.table().slots.size() * sizeof(DiamondSource);
     }
 
   private:

@@ -41,7 +41,7 @@ double tolerance_for(uint64_t triangles) {
 
 terrain::RoamFront make_front(double tolerance, bool pruning) {
     return terrain::RoamFront(
-        grid(), table(),
+        table(),
         {.tolerance_px = tolerance, .threads = 2, .reserve_triangles = 400'000, .is_pruning = pruning});
 }
 

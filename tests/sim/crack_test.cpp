@@ -27,7 +27,7 @@ constexpr double kMargin_cells = 3.0;
 struct Terrain {
     explicit Terrain(data::HeightGrid heights)
         : grid(std::move(heights)),
-          front(grid, terrain::make_diamond_table(grid, 2),
+          front(terrain::make_diamond_table(grid, 2),
                 {.tolerance_px = 1.0, .reserve_triangles = 2 * kMostTriangles}) {}
     data::HeightGrid grid;
     terrain::RoamFront front;

@@ -198,7 +198,7 @@ TEST_P(TerrainBound, HoldsForEverySampleInView) {
         EXPECT_GT(samples.size(), 100u) << pose.name;
         for (const double tolerance_px : kTolerances_px) {
             SCOPED_TRACE(std::string(pose.name) + ", " + std::to_string(tolerance_px) + " px");
-            terrain::RoamFront front(*grid, table, {.tolerance_px = tolerance_px});
+            terrain::RoamFront front(table, {.tolerance_px = tolerance_px});
             lod::Front* fronts[] = {&front};
             front.begin_frame({&view, 1}, 0.0);
             ASSERT_TRUE(
@@ -239,7 +239,7 @@ TEST(TerrainFullResolution, EveryCellTwoTrianglesEverySampleAVertex) {
     ASSERT_TRUE(terrain_test::read_truth(path, dem));
     const auto grid = data::read_height_grid({path}, {});
     ASSERT_TRUE(grid) << grid.message();
-    terrain::RoamFront front(*grid, terrain::make_diamond_table(*grid, 2), {.tolerance_px = 0.0});
+    terrain::RoamFront front(terrain::make_diamond_table(*grid, 2), {.tolerance_px = 0.0});
     lod::Front* fronts[] = {&front};
     const lod::View view = view_of(dem, {"above", 0.5, 0.5, 60000, 0, -90, 0, 60, 1280, 720});
     front.begin_frame({&view, 1}, 0.0);

@@ -53,8 +53,7 @@ lod::View turned(const lod::View& view) {
 
 struct Rig {
     explicit Rig(bool pruning)
-        : front(grid(), table(),
-                {.tolerance_px = kTolerance, .reserve_triangles = 200'000, .is_pruning = pruning}) {}
+        : front(table(), {.tolerance_px = kTolerance, .reserve_triangles = 200'000, .is_pruning = pruning}) {}
 
     lod::ScheduleResult adapt(const lod::View& view) {
         lod::Front* fronts[] = {&front};

@@ -44,7 +44,7 @@ std::vector<DrawnTriangle> drawn(lod::Front& front, const lod::View& view, terra
 
 /// Flies about at random, stops refinement anywhere, and looks at what would be drawn each time.
 void fly_and_check(const data::HeightGrid& grid, double spacing_m, int frames, uint64_t seed) {
-    terrain::RoamFront front(grid, terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0});
+    terrain::RoamFront front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0});
     lod::Front* fronts[] = {&front};
     const lod::View whole = whole_view(grid, spacing_m);
     lod::Rng rng(seed);

@@ -89,7 +89,7 @@ TEST(DiamondTable, APlaneHasNoError) {
             heights.push_back(static_cast<float>(3 * col - 2 * row));
     }
     const data::HeightGrid grid = data::make_planar_grid(33, 33, 10.0, std::move(heights));
-    for (const auto& source : terrain::make_diamond_table(grid, 1).sources)
+    for (const auto& source : terrain::make_diamond_table(grid, 1).slots)
         EXPECT_EQ(source.error_code, 0);
 }
 
@@ -108,9 +108,9 @@ TEST(DiamondTable, DoesNotDependOnThreads) {
     const data::HeightGrid grid = terrain_test::fractal_grid(129, 100, 10.0, 300.0, 3);
     const terrain::DiamondTable one = terrain::make_diamond_table(grid, 1),
                                 four = terrain::make_diamond_table(grid, 4);
-    for (size_t i = 0; i < one.sources.size(); ++i) {
-        ASSERT_EQ(one.sources[i].error_code, four.sources[i].error_code);
-        ASSERT_EQ(one.sources[i].rise_code, four.sources[i].rise_code);
+    for (size_t i = 0; i < one.slots.size(); ++i) {
+        ASSERT_EQ(one.slots[i].error_code, four.slots[i].error_code);
+        ASSERT_EQ(one.slots[i].rise_and_voids, four.slots[i].rise_and_voids);
     }
 }
 

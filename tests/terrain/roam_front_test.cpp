@@ -18,7 +18,7 @@ lod::View flight_view(int frame) {
 
 TEST(RoamFront, ValidAfterEveryOperationCount) {
     const data::HeightGrid grid = fractal_grid(257, 257, 4.0, 200.0, 1);
-    terrain::RoamFront front(grid, terrain::make_diamond_table(grid, 2), {.tolerance_px = 0.5});
+    terrain::RoamFront front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 0.5});
     lod::Front* fronts[] = {&front};
     const lod::View view = flight_view(0);
     front.begin_frame({&view, 1}, 0.0);
@@ -30,7 +30,7 @@ TEST(RoamFront, ValidAfterEveryOperationCount) {
 
 TEST(RoamFront, RandomFlightStaysValid) {
     const data::HeightGrid grid = fractal_grid(200, 131, 10.0, 300.0, 2);
-    terrain::RoamFront front(grid, terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0});
+    terrain::RoamFront front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0});
     lod::Front* fronts[] = {&front};
     lod::Rng rng(7);
     for (int frame = 0; frame < 400; ++frame) {
@@ -48,7 +48,7 @@ TEST(RoamFront, RandomFlightStaysValid) {
 
 TEST(RoamFront, ToleranceZeroIsTheFullMesh) {
     const data::HeightGrid grid = fractal_grid(100, 73, 10.0, 100.0, 3);
-    terrain::RoamFront front(grid, terrain::make_diamond_table(grid, 1), {.tolerance_px = 0.0});
+    terrain::RoamFront front(terrain::make_diamond_table(grid, 1), {.tolerance_px = 0.0});
     lod::Front* fronts[] = {&front};
     const lod::View view = level_view({495, 360, 3000}, 0.0, -1.5707963);
     front.begin_frame({&view, 1}, 0.0);

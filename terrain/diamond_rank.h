@@ -1,0 +1,16 @@
+// DiamondRank: what ranks a record of the mesh: its facts, copied from the table so that a page may go while the
+// record stays, and its place in a queue.
+#pragma once
+
+#include "terrain/bucket_queue.h"
+#include "terrain/diamond_table.h"
+
+namespace terrain {
+
+struct DiamondRank {
+    DiamondSource source;
+    BucketLink link;
+};
+static_assert(sizeof(DiamondRank) == 16);
+
+}  // namespace terrain
