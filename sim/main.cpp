@@ -5,6 +5,7 @@
 
 #include "sim/command_demo.h"
 #include "sim/command_fly.h"
+#include "sim/command_query.h"
 #include "sim/command_still.h"
 #include "sim/command_terrain.h"
 
@@ -35,21 +36,25 @@ int main(int count, char** words) {
     sim::FlyArguments fly;
     sim::StillArguments still;
     sim::ExtractArguments extract;
+    sim::QueryArguments query;
     CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
     CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
     CLI::App& still_app = *app.add_subcommand("still", "one picture, converged unless a budget is given");
     CLI::App& terrain_app =
         *app.add_subcommand("terrain", "work on rasters of heights")->require_subcommand(1);
     CLI::App& extract_app = *terrain_app.add_subcommand("extract", "a static mesh with a guaranteed error");
+    CLI::App& query_app = *terrain_app.add_subcommand("query", "heights of the ground and lines of sight");
     sim::add_demo(demo_app, demo);
     sim::add_fly(fly_app, fly);
     sim::add_still(still_app, still);
     sim::add_extract(extract_app, extract);
+    sim::add_query(query_app, query);
 
     const auto command = [&]() -> lod::Result<lod::Ok> {
         if (demo_app.parsed()) return sim::run_demo(demo);
         if (fly_app.parsed()) return sim::run_fly(fly);
         if (still_app.parsed()) return sim::run_still(still);
+        if (query_app.parsed()) return sim::run_query(query);
         return sim::run_extract(extract);
     };
     return run(app, command, count, words);

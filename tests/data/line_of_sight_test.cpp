@@ -166,6 +166,7 @@ TEST(LineOfSight, BeyondTheRasterNothingBlocks) {
     EXPECT_TRUE(entering.is_blocked) << "below the ground at the border";
     EXPECT_NEAR(entering.end_world.x, 0.0, 1e-6);
     EXPECT_FALSE(look(grid, {{-100, 5, 30}, {200, 5, 30}}).is_blocked) << "touching all along";
+    EXPECT_FALSE(look(grid, {{-5, 3, 10}, {3, -5, 10}}).is_blocked) << "past the corner";
     EXPECT_FALSE(look(grid, {{-100, NAN, 10}, {20, 5, 10}}).is_blocked);
     EXPECT_FALSE(look(grid, {{-INFINITY, 5, 10}, {20, 5, 10}}).is_blocked);
 }
@@ -285,6 +286,67 @@ TEST(LineOfSight, CurvesWithTheEarth) {
     EXPECT_TRUE(
         look(sea, {buoy(0.5), sea.frame.world().world_from_site({100.0, -60.0, 20'200'000.0})}).is_blocked)
         << "one below the horizon";
+}
+
+TEST(LineOfSight, GoesRoundTheEarth) {
+    // A belt around the equator: plains, and a wall of 10 km along its first column, or its last.
+    const auto belt = [](int width, double first_longitude, int wall) {
+        const std::array<double, 6> g = {first_longitude - 0.25, 0.5, 0.0, 2.0, 0.0, -0.5};
+        HeightGrid grid = test::rough_grid(width, 8, g, "EPSG:4326", 0.0);
+        for (int row = 0; row < 8; ++row)
+            grid.height_m[grid.index(wall, row)] = 10'000.0f;
+        return grid;
+    };
+    const auto at = [](double longitude, double latitude, double height_m) {
+        return data::WorldFrame{}.world_from_site({longitude, latitude, height_m});
+    };
+    // Samples from -179.75 to 179.75: a cell is missing between.
+    for (const int wall : {0, 719}) {
+        const Sight over = look(belt(720, -179.75, wall), {at(179.6, 0.1, 2000), at(-179.6, 0.1, 2000)});
+        EXPECT_TRUE(over.is_blocked) << wall;
+        const Sight back = look(belt(720, -179.75, wall), {at(-179.6, 0.1, 2000), at(179.6, 0.1, 2000)});
+        EXPECT_TRUE(back.is_blocked) << wall;
+    }
+    EXPECT_FALSE(look(belt(720, -179.75, 300), {at(179.6, 0.1, 2000), at(-179.6, 0.1, 2000)}).is_blocked);
+    // Samples from -180 to 180: along the seam.
+    HeightGrid seam = belt(721, -180.0, 0);
+    for (int row = 0; row < 8; ++row)
+        seam.height_m[seam.index(720, row)] = 10'000.0f;
+    for (const double longitude : {180.0, -180.0, 179.9999999, -179.9999999}) {
+        EXPECT_TRUE(look(seam, {at(longitude, 0.1, 9'000), at(longitude, 0.6, 9'000)}).is_blocked)
+            << longitude;
+        EXPECT_FALSE(look(seam, {at(longitude, 0.1, 11'000), at(longitude, 0.6, 11'000)}).is_blocked);
+    }
+}
+
+TEST(LineOfSight, IsMutualToTheLastBit) {
+    const HeightGrid grid =
+        test::rough_grid(60, 50, {7.0, 0.001, 0.0, 44.0, 0.0, -0.001}, "EPSG:4326", 300.0);
+    const data::HeightPyramid pyramid = data::make_height_pyramid(grid, 1);
+    lod::Rng rng(12);
+    int turned = 0;
+    for (int i = 0; i < 60; ++i) {
+        const WorldLine line = random_line(grid, rng, 30.0, 100.0);
+        const glm::dvec3 up = glm::normalize(line.from);
+        const auto raised = [&](double by_m) {
+            return WorldLine{line.from + up * by_m, line.to + up * by_m};
+        };
+        const auto is_blocked = [&](const WorldLine& l) {
+            return data::line_of_sight(grid, pyramid, l).is_blocked;
+        };
+        double low_m = 0.0, high_m = 1000.0;  // to where it just sees
+        if (!is_blocked(raised(low_m)) || is_blocked(raised(high_m))) continue;
+        for (int step = 0; step < 45; ++step) {
+            const double middle_m = 0.5 * (low_m + high_m);
+            (is_blocked(raised(middle_m)) ? low_m : high_m) = middle_m;
+        }
+        for (double off_m = -3e-8; off_m <= 3e-8; off_m += 1e-10) {
+            const WorldLine one = raised(low_m + off_m);
+            ASSERT_EQ(is_blocked(one), is_blocked({one.to, one.from})) << i << ' ' << off_m;
+        }
+        ++turned;
+    }
+    EXPECT_GT(turned, 20);
 }
 
 TEST(LineOfSight, BatchesAreSingleAnswersForAnyThreads) {
