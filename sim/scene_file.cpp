@@ -69,20 +69,30 @@ ObjectSource read_objects(const toml::value& value, Reading& reading) {
     return objects;
 }
 
+/// What models and instruments share: source, heading, scale. @returns their place of `size` numbers; zeros where the
+/// file has another, which is a problem then
+template <typename Source>
+std::vector<double> take_placed(TomlTable& table, const Reading& reading, const std::string& place_key,
+                                size_t size, Source& out) {
+    reading.take_source(table, out.source);
+    std::vector<double> place;
+    double heading_deg = 0.0;
+    table.require(place_key);
+    table.take(place_key, place, size, size);
+    table.take("heading_deg", heading_deg, kAngle);
+    table.take("scale", out.scale, kScale);
+    out.heading_rad = heading_deg * kRadPerDeg;
+    place.resize(size, 0.0);
+    return place;
+}
+
 ModelSource read_model(const toml::value& value, Reading& reading) {
     TomlTable table(value, "[[models]]", reading.problem);
     ModelSource model;
-    reading.take_source(table, model.source);
-    std::vector<double> position;
-    double heading_deg = 0.0;
-    table.require("position");
-    table.take("position", position, 2, 2);
+    const std::vector<double> position = take_placed(table, reading, "position", 2, model);
     table.take("height_m", model.height_m, kHeight);
-    table.take("heading_deg", heading_deg, kAngle);
-    table.take("scale", model.scale, kScale);
     table.finish();
-    if (position.size() == 2) model.site = {position[0], position[1]};
-    model.heading_rad = heading_deg * kRadPerDeg;
+    model.site = {position[0], position[1]};
     return model;
 }
 
@@ -105,18 +115,11 @@ std::vector<Drive> read_drives(const toml::value& value, Reading& reading) {
 InstrumentSource read_instrument(const toml::value& value, Reading& reading) {
     TomlTable table(value, "[[instruments]]", reading.problem);
     InstrumentSource instrument;
-    reading.take_source(table, instrument.source);
-    std::vector<double> position;
-    double heading_deg = 0.0;
-    table.require("position_m");
-    table.take("position_m", position, 3, 3);
-    table.take("heading_deg", heading_deg, kAngle);
-    table.take("scale", instrument.scale, kScale);
+    const std::vector<double> position = take_placed(table, reading, "position_m", 3, instrument);
     if (const toml::value* drives = table.take_table("drives"))
         instrument.drives = read_drives(*drives, reading);
     table.finish();
-    if (position.size() == 3) instrument.position_eye_m = {position[0], position[1], position[2]};
-    instrument.heading_rad = heading_deg * kRadPerDeg;
+    instrument.position_eye_m = {position[0], position[1], position[2]};
     return instrument;
 }
 

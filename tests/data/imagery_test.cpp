@@ -175,25 +175,25 @@ TEST(Imagery, PixelsFinerOrCoarserThanCellsKeepTheirPlace) {
     EXPECT_NEAR(pixel(averaged, 0, 0).y, 15 * 12, 1);
 }
 
+/// One band of four by two pixels of one unit, without a CRS.
+RasterSpec eight_pixels(const std::vector<double>& values, GDALDataType type) {
+    return {.width = 4,
+            .height = 2,
+            .values = values,
+            .type = type,
+            .geo_transform = {0, 1, 0, 2, 0, -1},
+            .crs = ""};
+}
+
 TEST(Imagery, GreyAlphaNodataAndDeepBands) {
     const HeightGrid grid = flat_grid(4, 2, {0, 1, 0, 2, 0, -1}, "");
-    RasterSpec grey{.width = 4,
-                    .height = 2,
-                    .values = {0, 10, 20, 30, 40, 50, 60, 70},
-                    .type = GDT_Byte,
-                    .geo_transform = {0, 1, 0, 2, 0, -1},
-                    .crs = ""};
+    RasterSpec grey = eight_pixels({0, 10, 20, 30, 40, 50, 60, 70}, GDT_Byte);
     EXPECT_EQ(pixel(read({test::write_raster("grey.tif", grey)}, grid), 3, 1), glm::ivec4(70, 70, 70, 255));
     grey.has_nodata = true;
     grey.nodata = 70;
     EXPECT_EQ(pixel(read({test::write_raster("grey2.tif", grey)}, grid), 3, 1).w, 0);
     EXPECT_EQ(pixel(read({"/vsimem/grey2.tif"}, grid), 0, 0), glm::ivec4(0, 0, 0, 255));
-    RasterSpec deep{.width = 4,
-                    .height = 2,
-                    .values = {1000, 1000, 2000, 2000, 3000, 3000, 4000, 5000},
-                    .type = GDT_UInt16,
-                    .geo_transform = {0, 1, 0, 2, 0, -1},
-                    .crs = ""};
+    RasterSpec deep = eight_pixels({1000, 1000, 2000, 2000, 3000, 3000, 4000, 5000}, GDT_UInt16);
     const Image stretched = read({test::write_raster("deep.tif", deep)}, grid);
     EXPECT_EQ(pixel(stretched, 0, 0).x, 0);
     EXPECT_EQ(pixel(stretched, 3, 1).x, 255);
@@ -218,12 +218,7 @@ TEST(Imagery, GreyAlphaNodataAndDeepBands) {
 
 TEST(Imagery, PalettesAreLookedUp) {
     const HeightGrid grid = flat_grid(4, 2, {0, 1, 0, 2, 0, -1}, "");
-    RasterSpec spec{.width = 4,
-                    .height = 2,
-                    .values = {0, 1, 2, 0, 1, 2, 0, 1},
-                    .type = GDT_Byte,
-                    .geo_transform = {0, 1, 0, 2, 0, -1},
-                    .crs = ""};
+    RasterSpec spec = eight_pixels({0, 1, 2, 0, 1, 2, 0, 1}, GDT_Byte);
     const std::string path = test::write_raster("palette.tif", spec);
     GDALDatasetH dataset = GDALOpen(path.c_str(), GA_Update);
     GDALColorTableH table = GDALCreateColorTable(GPI_RGB);

@@ -1,11 +1,10 @@
 // `terrain extract`: its mesh against the raster, read here from the text the test wrote.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "tests/sim/ply_reader.h"
 #include "tests/sim/program.h"
 
 namespace {
@@ -13,38 +12,18 @@ namespace {
 using nlohmann::json;
 using sim_test::run_program;
 using sim_test::TempFolder;
-
-struct Mesh {
-    std::vector<std::array<double, 3>> vertices;
-    std::vector<std::array<int32_t, 3>> faces;
-};
-
-Mesh read_mesh(const std::string& path) {
-    const std::string bytes = sim_test::read_all(path);
-    Mesh mesh;
-    mesh.vertices.resize(std::stoul(bytes.substr(bytes.find("element vertex ") + 15)));
-    mesh.faces.resize(std::stoul(bytes.substr(bytes.find("element face ") + 13)));
-    size_t at = bytes.find("end_header\n") + 11;
-    std::memcpy(mesh.vertices.data(), bytes.data() + at, mesh.vertices.size() * 24);
-    at += mesh.vertices.size() * 24;
-    for (auto& face : mesh.faces) {
-        std::memcpy(face.data(), bytes.data() + at + 1, 12);
-        at += 14;
-    }
-    EXPECT_EQ(at, bytes.size());
-    return mesh;
-}
+using sim_test::TriangleMesh;
 
 double relief_m(int col, int row) {
     return 100 + (row * row + 3 * col) % 41;
 }
 
 /// Height of the mesh at x, y by searching every triangle.
-double mesh_height(const Mesh& mesh, double x, double y) {
+double mesh_height(const TriangleMesh& mesh, double x, double y) {
     for (const auto& face : mesh.faces) {
-        const auto& a = mesh.vertices[static_cast<size_t>(face[0])];
-        const auto& b = mesh.vertices[static_cast<size_t>(face[1])];
-        const auto& c = mesh.vertices[static_cast<size_t>(face[2])];
+        const auto& a = mesh.vertices[face[0]];
+        const auto& b = mesh.vertices[face[1]];
+        const auto& c = mesh.vertices[face[2]];
         const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
         const double v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
         const double w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
@@ -64,7 +43,7 @@ TEST_P(Extract, NoSampleIsFartherThanPromised) {
         folder, "terrain extract " + dem + " --out " + ply + " --max-error " + std::to_string(GetParam()));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const json said = json::parse(outcome.out);
-    const Mesh mesh = read_mesh(ply);
+    const TriangleMesh mesh = sim_test::read_ply(ply);
     EXPECT_EQ(said["triangles"], mesh.faces.size());
     EXPECT_EQ(said["vertices"], mesh.vertices.size());
     EXPECT_LE(said["max_error_m"].get<double>(), GetParam());
@@ -78,9 +57,9 @@ TEST_P(Extract, NoSampleIsFartherThanPromised) {
     }
     EXPECT_LE(worst_m, said["max_error_m"].get<double>() + 1e-6);
     for (const auto& face : mesh.faces) {
-        const auto& a = mesh.vertices[static_cast<size_t>(face[0])];
-        const auto& b = mesh.vertices[static_cast<size_t>(face[1])];
-        const auto& c = mesh.vertices[static_cast<size_t>(face[2])];
+        const auto& a = mesh.vertices[face[0]];
+        const auto& b = mesh.vertices[face[1]];
+        const auto& c = mesh.vertices[face[2]];
         EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]), 0.0) << "counter-clockwise";
     }
 }

@@ -10,18 +10,19 @@
 #include "sim/stage.h"
 #include "tests/sim/temp_folder.h"
 #include "tests/terrain/dem_truth.h"
+#include "tests/terrain/picture_point.h"
 #include "tests/terrain/vertical_probe.h"
 
 namespace {
+
+using terrain_test::is_in_picture;
+using terrain_test::projected;
+using terrain_test::radians;
 
 struct Foot {
     glm::dvec3 world, up;
     double col, row;
 };
-
-double radians(double degrees) {
-    return degrees * 3.14159265358979323846 / 180.0;
-}
 
 glm::dvec3 vec_of(const float v[4]) {
     return {double(v[0]), double(v[1]), double(v[2])};
@@ -36,18 +37,6 @@ Foot foot_at(const glm::dvec3& world, const terrain_test::DemTruth& dem) {
             {m[2], m[5], m[8]},
             (lon - dem.geo[0]) / dem.geo[1] - 0.5,
             (lat - dem.geo[3]) / dem.geo[5] - 0.5};
-}
-
-/// Pixels from the picture's centre; z: depth.
-glm::dvec3 projected(const lod::View& view, const glm::dvec3& world) {
-    const glm::dvec3 eye = view.eye_from_world * (world - view.eye_world);
-    const double scale = view.height_px / (2.0 * std::tan(view.fov_y_rad / 2.0)) / -eye.z;
-    return {eye.x * scale, eye.y * scale, -eye.z};
-}
-
-bool is_in_picture(const lod::View& view, const glm::dvec3& picture) {
-    return picture.z > view.near_m && std::abs(picture.x) < view.width_px / 2.0 &&
-           std::abs(picture.y) < view.height_px / 2.0;
 }
 
 /// Feet of walls where the vertex shader puts them: sunk along the vertical by the ground's error, which up_eye.w

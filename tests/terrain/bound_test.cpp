@@ -11,12 +11,16 @@
 #include "lod/scheduler.h"
 #include "terrain/roam_front.h"
 #include "tests/terrain/dem_truth.h"
+#include "tests/terrain/picture_point.h"
 #include "tests/terrain/vertical_probe.h"
 
 namespace {
 
 using terrain_test::DemTruth;
 using terrain_test::DrawnTriangle;
+using terrain_test::is_in_picture;
+using terrain_test::projected;
+using terrain_test::radians;
 using terrain_test::TrueGround;
 using terrain_test::VerticalHit;
 
@@ -51,10 +55,6 @@ constexpr Pose kPoses[] = {
 };
 constexpr double kTolerances_px[] = {0.5, 1.0, 2.0, 4.0};
 
-double radians(double degrees) {
-    return degrees * 3.14159265358979323846 / 180.0;
-}
-
 lod::View view_of(const DemTruth& dem, const Pose& pose) {
     const int col = static_cast<int>(pose.col_share * (dem.width - 1));
     const int row = static_cast<int>(pose.row_share * (dem.height - 1));
@@ -74,18 +74,6 @@ lod::View view_of(const DemTruth& dem, const Pose& pose) {
     view.width_px = pose.width_px;
     view.height_px = pose.height_px;
     return view;
-}
-
-/// Pixels from the picture's centre; z: depth in metres.
-glm::dvec3 projected(const lod::View& view, const glm::dvec3& world) {
-    const glm::dvec3 eye = view.eye_from_world * (world - view.eye_world);
-    const double scale = view.height_px / (2.0 * std::tan(view.fov_y_rad / 2.0)) / -eye.z;
-    return {eye.x * scale, eye.y * scale, -eye.z};
-}
-
-bool is_in_picture(const lod::View& view, const glm::dvec3& picture) {
-    return picture.z > view.near_m && std::abs(picture.x) < view.width_px / 2.0 &&
-           std::abs(picture.y) < view.height_px / 2.0;
 }
 
 struct Sample {
