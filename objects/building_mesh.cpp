@@ -50,12 +50,9 @@ void append_wall(const Shell& shell, std::span<const Foot> feet, BuildingMesh& o
         append(out, lod::make_vertex(left, normal, shell.colours.wall, lod::Material::kWall));
     const uint32_t top_right =
         append(out, lod::make_vertex(right, normal, shell.colours.wall, lod::Material::kWall));
-    const uint32_t middle = (lower + lower_end) / 2;  // feet up to here hang on the left corner
-    for (uint32_t foot = lower; foot < lower_end; ++foot) {
-        const uint32_t corner = foot < middle ? top_left : top_right;
-        out.indices.insert(out.indices.end(), {corner, foot, foot + 1});
-    }
-    out.indices.insert(out.indices.end(), {top_left, middle, top_right});
+    for (uint32_t foot = lower; foot < lower_end; ++foot)
+        out.indices.insert(out.indices.end(), {foot, foot + 1, top_left});
+    out.indices.insert(out.indices.end(), {lower_end, top_right, top_left});
 }
 
 /// The footprint's triangles at one height; `is_underside` turns them over.

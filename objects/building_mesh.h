@@ -3,6 +3,9 @@
 //     A'--------B'   roof height       A wall is a polygon: two corners above, a chain of feet below. Feet get
 //     | \      /|                      Material::kWallFoot, so that the renderer can sink them by the ground's
 //     f0-f1--f2-f3   source ground     error; a wall that hangs free (min_height) has only two lower corners.
+//
+// A wall is a fan around its upper left corner, the last index of each of its triangles: the renderer lays windows
+// out from there (render/shaders/scene.vert). A fan may fold where the ground bulges; the fold lies in the ground.
 #pragma once
 
 #include <vector>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/surface_pattern.h"
+
 namespace render {
 
 namespace {
@@ -16,10 +18,21 @@ Vec4 vec4_of(const glm::dvec3& v, double w) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
+/// Tiles are counted from a sample near the eye, whole ones dropped in double: what is near the eye is as exact far
+/// from the grid's corner as at it.
+void place_ground(const Ground& ground, const glm::ivec2& sample, FrameBlock& block) {
+    const glm::dvec2 per_sample = ground.detail.cell_m / kGroundTile_m;
+    const glm::dvec2 anchor(sample), phase = glm::fract(anchor * per_sample);
+    const glm::dvec2 grid(ground.grid_width, ground.grid_height);
+    const glm::dvec2 scale = 1.0 / (per_sample * grid), offset = (anchor + 0.5) / grid - phase * scale;
+    block.ground_tiles = vec4_of({per_sample, anchor.x}, anchor.y);
+    block.ground_phase = vec4_of({phase, 0.0}, 0.0);
+    block.ground_grid = vec4_of({scale, offset.x}, offset.y);
+}
+
 }  // namespace
 
-FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, int grid_width,
-                          int grid_height) {
+FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, const Ground& ground) {
     const lod::ViewMetric metric = lod::metric_of(view);
     const double extinction_per_m = -std::log2(kVisibleContrast) / std::max(atmosphere.visibility_m, 1.0);
     const double thinning_per_m = std::numbers::log2e / kHazeScaleHeight_m;
@@ -34,7 +47,7 @@ FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, i
     block.sun_eye = vec4_of(view.eye_from_world * atmosphere.sun_world, std::cos(kSunRadius_rad));
     block.up_eye = vec4_of(view.eye_from_world * atmosphere.up_world, 0.0);
     block.haze = vec4_of({extinction_per_m, thinning_per_m, eye_thinning}, std::exp2(-eye_thinning));
-    block.ground_grid = vec4_of({1.0 / grid_width, 1.0 / grid_height, 0.0}, 0.0);
+    place_ground(ground, atmosphere.ground_sample, block);
     return block;
 }
 

@@ -46,6 +46,15 @@ struct BufferKind {
     static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
 };
 
+struct TextureArrayKind {
+    static GLuint create() {
+        GLuint id = 0;
+        glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+        return id;
+    }
+    static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
+
 struct Texture2DKind {
     static GLuint create() {
         GLuint id = 0;
@@ -98,6 +107,7 @@ struct FragmentShaderKind {
 };
 
 using Buffer = GlHandle<BufferKind>;
+using TextureArray = GlHandle<TextureArrayKind>;
 using Texture2D = GlHandle<Texture2DKind>;
 using Renderbuffer = GlHandle<RenderbufferKind>;
 using Framebuffer = GlHandle<FramebufferKind>;

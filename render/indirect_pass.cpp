@@ -92,7 +92,7 @@ uint64_t upload_frame(const lod::DrawList& list, const GeometryPool& pool, const
     return bytes + count * sizeof(DrawCommand);
 }
 
-void submit(const GeometryPool& pool, GLuint ground_texture, const IndirectPass& pass) {
+void submit(const GeometryPool& pool, const SurfaceTextures& textures, const IndirectPass& pass) {
     set_fixed_state();
     glVertexArrayVertexBuffer(pass.vertex_array.id(), kVertexBinding, pool.vertices.id(), 0,
                               sizeof(lod::Vertex));
@@ -101,7 +101,8 @@ void submit(const GeometryPool& pool, GLuint ground_texture, const IndirectPass&
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, pass.commands.id());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pass.instances.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, pass.frame.id());
-    glBindTextureUnit(0, ground_texture);
+    glBindTextureUnit(0, textures.ground.id());
+    glBindTextureUnit(1, textures.patterns.id());
     glUseProgram(pass.program.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                 static_cast<GLsizei>(pass.command_count), sizeof(DrawCommand));

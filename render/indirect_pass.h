@@ -34,7 +34,13 @@ uint32_t command_capacity(const IndirectPass& pass);
 uint64_t upload_frame(const lod::DrawList& list, const GeometryPool& pool, const FrameBlock& frame,
                       bool draws_sky, IndirectPass& pass);
 
-/// Binds pool, records and texture and submits the one draw call into the bound framebuffer.
-void submit(const GeometryPool& pool, GLuint ground_texture, const IndirectPass& pass);
+/// What surfaces are painted with.
+struct SurfaceTextures {
+    Texture2D ground;
+    TextureArray patterns;
+};
+
+/// Binds pool, records and textures and submits the one draw call into the bound framebuffer.
+void submit(const GeometryPool& pool, const SurfaceTextures& textures, const IndirectPass& pass);
 
 }  // namespace render

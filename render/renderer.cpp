@@ -9,6 +9,7 @@
 #include "render/geometry_pool.h"
 #include "render/ground_texture.h"
 #include "render/indirect_pass.h"
+#include "render/pattern_texture.h"
 #include "render/target.h"
 #include "render/window.h"
 
@@ -22,8 +23,8 @@ struct Renderer::State {
     GeometryPool pool;
     PoolCapacity pool_capacity;
     IndirectPass pass;
-    Texture2D ground;
-    int ground_grid_width = 1, ground_grid_height = 1;
+    SurfaceTextures textures;
+    Ground ground;
     Fence in_flight;  ///< end of the last draw, while it may still read the buffers
     DrawStats stats;
     uint32_t allocations_since_draw = 0;
@@ -32,7 +33,7 @@ struct Renderer::State {
 
 namespace {
 
-constexpr uint32_t kFirstAllocations = 8;  ///< two renderbuffers, five buffers, one texture
+constexpr uint32_t kFirstAllocations = 9;  ///< two renderbuffers, five buffers, two textures
 
 bool is_software_rasteriser(const std::string& device) {
     return device.find("llvmpipe") != std::string::npos || device.find("softpipe") != std::string::npos;
@@ -101,6 +102,7 @@ lod::Result<Renderer> Renderer::create(const RendererOptions& options) {
     auto pass = make_indirect_pass(options.pool.commands);
     if (!pass) return pass.error();
     state->pass = std::move(*pass);
+    state->textures.patterns = make_plain_patterns();
     state->allocations_since_draw = kFirstAllocations - 1;
 
     Renderer renderer(std::move(state));
@@ -118,11 +120,18 @@ lod::Result<lod::Ok> Renderer::set_ground_texture(int width, int height, std::sp
     CHECK(grid_width > 0 && grid_height > 0);
     auto texture = make_ground_texture(width, height, rgba, is_software_rasteriser(device_name()));
     if (!texture) return texture.error();
-    state_->ground = std::move(*texture);
-    state_->ground_grid_width = grid_width;
-    state_->ground_grid_height = grid_height;
+    state_->textures.ground = std::move(*texture);
+    state_->ground.grid_width = grid_width;
+    state_->ground.grid_height = grid_height;
     ++state_->allocations_since_draw;
     return lod::Ok{};
+}
+
+void Renderer::set_detail(const SurfaceDetail& detail) {
+    state_->in_flight.wait();
+    state_->ground.detail = detail;
+    state_->textures.patterns = make_patterns(detail, is_software_rasteriser(device_name()));
+    ++state_->allocations_since_draw;
 }
 
 lod::Result<lod::Ok> Renderer::resize_pool(const PoolCapacity& capacity) {
@@ -151,15 +160,14 @@ void Renderer::draw(const lod::View& view, const lod::DrawList& list, const Atmo
         CHECK(bool(grown));
         state.allocations_since_draw += 2;
     }
-    const FrameBlock frame =
-        frame_block_of(view, atmosphere, state.ground_grid_width, state.ground_grid_height);
+    const FrameBlock frame = frame_block_of(view, atmosphere, state.ground);
     uint64_t upload_bytes = place_writes(list, state.pool);
     upload_bytes += upload_frame(list, state.pool, frame, atmosphere.draw_sky, state.pass);
 
     clear(state.target, atmosphere.clear_colour);
     glBindFramebuffer(GL_FRAMEBUFFER, state.target.framebuffer.id());
     glViewport(0, 0, state.target.width_px, state.target.height_px);
-    submit(state.pool, state.ground.id(), state.pass);
+    submit(state.pool, state.textures, state.pass);
     state.in_flight.place();
 
     state.drawn_near_m = view.near_m;

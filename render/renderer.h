@@ -40,7 +40,14 @@ struct Atmosphere {
     glm::vec3 clear_colour{1.0f, 0.0f, 1.0f};  ///< magenta where nothing is drawn: holes show
     double visibility_m = 40000.0;             ///< distance at which haze leaves 5 % of the contrast
     double eye_height_m = 0.0;                 ///< above the ground's datum, thins the haze
+    glm::ivec2 ground_sample{0};               ///< column and row near the eye, where detail is most exact
     bool draw_sky = true;                      ///< false: `clear_colour` shows wherever no item draws
+};
+
+/// How the fine structure of surfaces lies on the ground; a fixed function of the place, not of the view.
+struct SurfaceDetail {
+    glm::dvec2 cell_m{30.0};            ///< spacing of the ground's samples, east-west and north-south
+    glm::dvec3 sun_enu{0.0, 0.0, 1.0};  ///< towards the sun, unit length: lights the relief of the grass
 };
 
 /// Sizes in bytes and calls of the last frame, counted by the renderer itself.
@@ -80,10 +87,15 @@ class Renderer {
     /// The driver's name, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string device() const;
 
-    /// Colour of the ground, row-major from the north-west; mipmapped. Texel centres sit on samples when the
+    /// Colour of the ground, row-major from the north-west; mipmapped. Alpha says how much of its fine structure
+    /// shows (set_detail). Texel centres sit on samples when the
     /// image has the grid's size; `grid_width/height` say how many samples the image spans.
     lod::Result<lod::Ok> set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
                                             int grid_width, int grid_height);
+
+    /// From now on ground, roofs and walls show structure finer than their colours: grass, roofing, windows. It
+    /// melts into its mean where it is smaller than a pixel. Cost: about 0.2 s, once.
+    void set_detail(const SurfaceDetail& detail);
 
     /// Grows the pool; contents are lost. Counts as an allocation.
     lod::Result<lod::Ok> resize_pool(const PoolCapacity& pool);

@@ -4,18 +4,24 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "lod/draw_list.h"
 #include "render/frame_block.h"
+#include "render/surface_pattern.h"
 #include "render_shaders.h"
 
 namespace render {
 
 namespace {
 
-std::string constant(const char* name, lod::Material material) {
-    return "const uint " + std::string(name) + " = " + std::to_string(static_cast<unsigned>(material)) +
-           "u;\n";
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string constant(const char* name, Enum value) {
+    return "const uint " + std::string(name) + " = " + std::to_string(static_cast<unsigned>(value)) + "u;\n";
+}
+
+std::string constant(const char* name, double value) {
+    return "const float " + std::string(name) + " = " + std::to_string(value) + ";\n";
 }
 
 std::string preamble() {
@@ -23,7 +29,11 @@ std::string preamble() {
            constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
            constant("kRoof", lod::Material::kRoof) + constant("kPaint", lod::Material::kPaint) +
            constant("kGlow", lod::Material::kGlow) + constant("kGlass", lod::Material::kGlass) +
-           constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot);
+           constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot) +
+           constant("kPlain", Pattern::kPlain) + constant("kGrain", Pattern::kGround) +
+           constant("kRoofing", Pattern::kRoof) + constant("kFirstFacade", Pattern::kHouse) +
+           constant("kRoofTilesPerMetre", 1.0 / kRoofTile_m) +
+           constant("kFacadeTilesPerMetre", 1.0 / kFacadeTile_m) + constant("kPerNeutral", 255.0 / kNeutral);
 }
 
 /// The driver's log up to its first line break.
@@ -64,6 +74,8 @@ constexpr std::array kFrameMembers{
     Member{"sun_eye", offsetof(FrameBlock, sun_eye)},
     Member{"up_eye", offsetof(FrameBlock, up_eye)},
     Member{"haze", offsetof(FrameBlock, haze)},
+    Member{"ground_tiles", offsetof(FrameBlock, ground_tiles)},
+    Member{"ground_phase", offsetof(FrameBlock, ground_phase)},
     Member{"ground_grid", offsetof(FrameBlock, ground_grid)},
 };
 

@@ -5,6 +5,7 @@
 
 #include "lod/base/hash.h"
 #include "sim/progress.h"
+#include "sim/sunlight.h"
 
 namespace sim {
 namespace {
@@ -70,6 +71,11 @@ render::Atmosphere atmosphere_of(const World& world, const Shot& shot, const glm
     air.visibility_m = kVisibility_m;
     air.eye_height_m =
         shot.state.site.height_m - (world.ground ? static_cast<double>(world.ground->min_m) : 0.0);
+    if (world.ground) {
+        const glm::dvec2 below = world.ground->frame.grid_from_site(shot.state.site);
+        const glm::dvec2 last(world.ground->width - 1, world.ground->height - 1);
+        air.ground_sample = glm::ivec2(glm::clamp(below, glm::dvec2(0.0), last));
+    }
     return air;
 }
 
@@ -149,6 +155,7 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
         auto set = stage.renderer.set_ground_texture(colours.width, colours.height, colours.rgba,
                                                      ground.width, ground.height);
         if (!set) return set.error();
+        stage.renderer.set_detail({ground.frame.cell_m(), kSunEnu});
     }
     return stage;
 }

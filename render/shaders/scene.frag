@@ -4,11 +4,11 @@
 layout(location = 0) out vec4 out_colour;  // display values, premultiplied
 
 in vec4 v_colour;
-in vec2 v_ground_uv;
-in float v_haze;
-flat in float v_untextured;
+in vec3 v_place_haze;
+flat in vec4 v_pattern;
 
-layout(binding = 0) uniform sampler2D ground;
+layout(binding = 0) uniform sampler2D ground;           // alpha: how much of the detail shows
+layout(binding = 1) uniform sampler2DArray patterns;
 
 const vec3 kZenith = vec3(0.23, 0.43, 0.69);
 const vec3 kMidSky = vec3(0.52, 0.70, 0.87);
@@ -39,11 +39,14 @@ void main() {
     float towards_sun = (dot(slope, sun_eye.xy) - sun_eye.z) * to_unit;
     float distance = length_2 * to_unit / gl_FragCoord.w;
 
-    float share = 1.0 - exp2(-v_haze * distance);
+    float share = 1.0 - exp2(-v_place_haze.z * distance);
     float disc = clamp((towards_sun - sun_eye.w) * 6e4, 0.0, 1.0);
     vec3 behind = mix(air(height, towards_sun), kSunDisc, share < 1.0 ? 0.0 : disc);
 
-    vec3 surface = v_colour.rgb * max(texture(ground, v_ground_uv, kSharper).rgb, vec3(v_untextured));
+    vec2 place = v_place_haze.xy;
+    vec4 base = max(texture(ground, place * ground_grid.xy + ground_grid.zw, kSharper), vec4(v_pattern.w));
+    vec3 detail = texture(patterns, vec3(place - v_pattern.xy, v_pattern.z)).rgb * kPerNeutral - 1.0;
+    vec3 surface = v_colour.rgb * base.rgb * (1.0 + base.a * detail);
     vec3 colour = mix(surface, behind * v_colour.a, share);
     // Half a display step of noise where the air rules, so that its gradient shows no bands.
     float noise = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403)));

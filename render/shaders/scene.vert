@@ -19,10 +19,10 @@ struct Instance {
 layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 
 out gl_PerVertex { vec4 gl_Position; };
-out vec4 v_colour;                 // display values, premultiplied by alpha
-out vec2 v_ground_uv;
-out float v_haze;                  // octaves of contrast lost per metre of the line of sight, its mean
-flat out float v_untextured;       // 0: the ground texture multiplies, 1: it does not
+// Packed: the set-up of a triangle costs a software rasteriser by the vec4.
+out vec4 v_colour;         // display values, premultiplied by alpha
+out vec3 v_place_haze;     // place in the surface pattern, tiles; octaves of contrast lost per metre of sight, mean
+flat out vec4 v_pattern;   // xy: zero of the place; z: layer; w: 0 where the ground texture multiplies, else 1
 
 // Linear light on a white surface; a clear morning: warm sun, blue sky, a little light back from the ground.
 const vec3 kSunLight = vec3(1.00, 0.90, 0.74) * 0.86;
@@ -38,8 +38,13 @@ vec3 decode_normal(uvec2 code) {
     return n;
 }
 
-vec3 position_in_eye(Instance instance) {
+// World axes, or the model's; metres from the eye.
+vec3 position_near_eye(Instance instance) {
     precise vec3 near_eye = (position_hi - instance.origin_hi.xyz) + (position_lo - instance.origin_lo.xyz);
+    return near_eye;
+}
+
+vec3 position_in_eye(Instance instance, vec3 near_eye) {
     precise vec3 eye = vec3(dot(instance.eye_from_model[0].xyz, near_eye),
                             dot(instance.eye_from_model[1].xyz, near_eye),
                             dot(instance.eye_from_model[2].xyz, near_eye));
@@ -81,6 +86,32 @@ vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
 }
 
+// Which pattern lies on the surface. All walls of a building have one colour, so they get the same facade.
+uint pattern_of(uint material, float steepness) {
+    if (material == kGround) return kGrain;
+    if (material == kRoof) return kRoofing;
+    bool is_wall = (material == kWall || material == kWallFoot) && steepness < 0.5;
+    uvec3 colour = colour_material.rgb;
+    return is_wall ? kFirstFacade + (colour.r * 7u + colour.g * 3u + colour.b) % 3u : kPlain;
+}
+
+// The roof's points along the two axes of the world that its normal is farthest from. Tiles are a power of two of
+// metres, so whole ones fall out of the eye's coordinates without any rounding.
+vec2 roof_place(Instance instance, vec3 near_eye) {
+    vec3 tiles = near_eye * kRoofTilesPerMetre + fract(instance.origin_hi.xyz * kRoofTilesPerMetre) +
+                 instance.origin_lo.xyz * kRoofTilesPerMetre;
+    vec3 steep = abs(decode_normal(surface));
+    if (steep.z >= max(steep.x, steep.y)) return tiles.xy;
+    return steep.x >= steep.y ? tiles.yz : tiles.xz;
+}
+
+// Along the wall and up.
+vec2 wall_place(vec3 normal, vec3 position_eye) {
+    vec3 along = cross(up_eye.xyz, normal);
+    along *= inversesqrt(max(dot(along, along), 1e-6));
+    return vec2(dot(along, position_eye), dot(up_eye.xyz, position_eye)) * kFacadeTilesPerMetre;
+}
+
 // Mean extinction between the eye and a point: the exact integral through air that thins exponentially with
 // height. A smooth function of the point's height alone, so vertices are close enough to interpolate.
 float mean_haze(vec3 position_eye) {
@@ -95,17 +126,23 @@ void main() {
     if (material == kSky) {
         gl_Position = vec4(position_hi.xy, 0.0, 1.0);
         v_colour = vec4(0.0, 0.0, 0.0, 1.0);
-        v_ground_uv = vec2(0.0);
-        v_haze = 1e3;  // nothing but air
-        v_untextured = 1.0;
+        v_place_haze = vec3(0.0, 0.0, 1e3);  // nothing but air
+        v_pattern = vec4(0.0, 0.0, kPlain, 1.0);
         return;
     }
     Instance instance = instances[gl_BaseInstanceARB];
-    vec3 eye = position_in_eye(instance);
+    vec3 near_eye = position_near_eye(instance);
+    vec3 eye = position_in_eye(instance, near_eye);
     if (material == kWallFoot) eye += instance.up_eye.xyz * (instance.up_eye.w * eye.z * projection.w);
     gl_Position = vec4(eye.xy * projection.xy, projection.z, -eye.z);
-    v_colour = surface_colour(material, normal_in_eye(instance), eye);
-    v_ground_uv = (vec2(surface) + 0.5) * ground_grid.xy;
-    v_haze = mean_haze(eye);
-    v_untextured = material == kGround ? 0.0 : 1.0;
+    vec3 normal = normal_in_eye(instance);
+    v_colour = surface_colour(material, normal, eye);
+    uint pattern = pattern_of(material, abs(dot(normal, up_eye.xyz)));
+    vec2 wall = wall_place(normal, eye);
+    vec2 place = (vec2(surface) - ground_tiles.zw) * ground_tiles.xy + ground_phase.xy;
+    if (pattern == kPlain) place = vec2(0.0);
+    if (pattern == kRoofing) place = roof_place(instance, near_eye);
+    if (pattern >= kFirstFacade) place = wall;
+    v_place_haze = vec3(place, mean_haze(eye));
+    v_pattern = vec4(pattern >= kFirstFacade ? wall : vec2(0.0), pattern, material == kGround ? 0.0 : 1.0);
 }
