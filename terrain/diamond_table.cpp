@@ -121,14 +121,6 @@ void fill_level(const LevelPass& pass, unsigned threads) {
 
 }  // namespace
 
-uint16_t encode_length(float length_m) {
-    if (!(length_m > 0.0f)) return 0;
-    constexpr uint32_t kBase = (127u - 13u) << 11;
-    const uint32_t bits = (std::bit_cast<uint32_t>(length_m) + 0xfffu) >> 12;
-    if (bits <= kBase) return 1;
-    return static_cast<uint16_t>(std::min(bits - kBase + 1u, 65535u));
-}
-
 DiamondTable make_table_frame(const data::HeightGrid& grid) {
     CHECK(grid.width >= 2 && grid.height >= 2 && grid.width <= 32769 && grid.height <= 32769);
     const Domain domain = make_domain(grid.width, grid.height);
@@ -152,14 +144,21 @@ DiamondTable make_table_frame(const data::HeightGrid& grid) {
 
 DiamondTable make_diamond_table(const data::HeightGrid& grid, unsigned threads) {
     DiamondTable table = make_table_frame(grid);
+    table.slots = FactMemory(table.layout.page_count() * kPageEntries);
+    fill_table(grid, table, threads, nullptr);
+    return table;
+}
+
+void fill_table(const data::HeightGrid& grid, DiamondTable& table, unsigned threads,
+                const std::function<void(int level)>& progress) {
+    CHECK(table.slots.size() == table.layout.page_count() * kPageEntries);
     std::iota(table.slot_of_page.begin(), table.slot_of_page.end(), 0u);
-    table.slots.resize(table.layout.page_count() * kPageEntries);
     for (int level = table.domain.finest_level(); level >= 0; --level) {
+        if (progress) progress(level);
         const int reach = table.domain.reach(level);
         const double cells = reach * ((level & 1) == 0 ? 2.0 * std::sqrt(2.0) : 2.0);
         fill_level({grid, table, level, reach, cells}, threads);
     }
-    return table;
 }
 
 }  // namespace terrain
