@@ -24,12 +24,15 @@ struct GroundFrame::Tables {
         double cos, sin;
     };
 
-    explicit Tables(RasterPlace p) : place(std::move(p)) {}
+    Tables(RasterPlace p, const std::array<double, 6>& g, const std::string& crs)
+        : place(std::move(p)), geo_transform(g), crs_wkt(crs) {}
     lod::Result<lod::Ok> fill_rows_and_columns(int width, int height);
     void ground_points(std::span<const glm::dvec2> grid, std::span<GroundPoint> out) const;
 
     Kind kind = Kind::kPlanar;
     RasterPlace place;
+    std::array<double, 6> geo_transform;
+    std::string crs_wkt;
     std::vector<Row> rows;        // kSeparable: [height]
     std::vector<Column> columns;  // kSeparable: [width]
     EcefPatches patches;          // kPatches
@@ -82,7 +85,7 @@ lod::Result<GroundFrame> GroundFrame::make(const std::array<double, 6>& geo_tran
     auto place = RasterPlace::make(geo_transform, crs_wkt, width, height);
     if (!place) return place.error();
 
-    const auto tables = std::make_shared<Tables>(std::move(*place));
+    const auto tables = std::make_shared<Tables>(std::move(*place), geo_transform, crs_wkt);
     GroundFrame frame;
     frame.tables_ = tables;
     frame.world_.has_datum = tables->place.has_datum();
@@ -162,6 +165,16 @@ void GroundFrame::grid_from_world(std::span<glm::dvec3> points) const {
         point = {site.x, site.y, site.height_m};
     }
     grid_from_sites(points);
+}
+
+const std::array<double, 6>& GroundFrame::geo_transform() const {
+    CHECK(tables_);
+    return tables_->geo_transform;
+}
+
+const std::string& GroundFrame::crs_wkt() const {
+    CHECK(tables_);
+    return tables_->crs_wkt;
 }
 
 glm::dvec2 GroundFrame::full_turn_cells() const {

@@ -56,6 +56,10 @@ class GroundFrame {
     /// Site of a grid position at height 0.
     SitePoint site_from_grid(double col, double row) const;
 
+    /// What it was made from: make() with the same gives the same frame.
+    const std::array<double, 6>& geo_transform() const;
+    const std::string& crs_wkt() const;
+
     /// Metres between neighbouring samples at the raster's middle: along a row, along a column.
     glm::dvec2 cell_m() const { return cell_m_; }
 

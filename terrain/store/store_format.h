@@ -1,0 +1,60 @@
+// The terrain store's file: a diamond table on disk, one page after the other, behind a header that knows them all.
+//
+//     0              preamble: name, version, checksum, sizes, the raster's place and extremes
+//                    CRS as WKT
+//                    directory: 16 bytes a page
+//                    zeros up to a multiple of 4096
+//     header_bytes   pages as they lie in memory, coarsest group first (page_layout.h), nothing between them
+//
+// Little-endian. The header's checksum covers everything behind it up to the pages, a page's stands in the
+// directory: whatever is cut, flipped or from elsewhere is told before it is used.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lod/base/result.h"
+#include "terrain/diamond_source.h"
+#include "terrain/page_layout.h"
+#include "terrain/store/file_handle.h"
+
+namespace terrain {
+
+inline constexpr uint64_t kPageBytes = kPageEntries * sizeof(DiamondSource);
+inline constexpr uint64_t kStoreAlignment_bytes = 4096;
+
+/// What is known of a page without reading it.
+struct PageSummary {
+    uint32_t checksum = 0;    ///< CRC-32 of its bytes
+    uint16_t error_code = 0;  ///< decode_length: the largest error of what cannot be split without this page
+    uint16_t unused = 0;
+    float min_m = 0.0f, max_m = 0.0f;  ///< heights of its diamonds and of all below them
+};
+static_assert(sizeof(PageSummary) == 16);
+
+/// All that a store holds besides its pages.
+struct StoreHeader {
+    int width = 0, height = 0;              ///< samples of the raster
+    std::array<double, 6> geo_transform{};  ///< with crs_wkt what GroundFrame::make needs
+    std::string crs_wkt;
+    float min_m = 0.0f, max_m = 0.0f;
+    bool has_voids = false;
+    std::array<DiamondSource, 4> corners{};
+    std::vector<PageSummary> pages;  ///< [PageLayout::page_count()]
+
+    uint64_t size_bytes() const;  ///< where the pages begin
+};
+
+/// The header's bytes, size_bytes() of them.
+std::string pack_header(const StoreHeader& header);
+
+/// Reads and checks a header and the file's length. @param path  for messages
+/// Fails with one line on anything but a whole store of this version.
+lod::Result<StoreHeader> read_header(const FileHandle& file, const std::string& path);
+
+/// CRC-32 (the one of zlib, PNG and Ethernet).
+uint32_t checksum_of(const void* bytes, size_t size_bytes);
+
+}  // namespace terrain
