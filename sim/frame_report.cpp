@@ -51,6 +51,7 @@ nlohmann::json to_json(const FrameRecord& frame) {
             {"missed", frame.missed},
             {"triangles", by_module(frame.triangles)},
             {"error_px", by_module(frame.error_px)},
+            {"jump_px", frame.jump_px},
             {"operations", operations},
             {"draw_calls", frame.draw_calls},
             {"commands", frame.commands},

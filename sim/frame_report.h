@@ -29,7 +29,8 @@ struct FrameRecord {
     bool missed = false;                             ///< total_ms is longer than the period
     std::array<uint64_t, kModuleCount> triangles{};  ///< drawn
     std::array<double, kModuleCount> error_px{};     ///< guaranteed bound inside the view
-    lod::OperationCounts operations;                 ///< of this frame
+    double jump_px = 0.0;             ///< farthest a vertex in view moved because the cut changed, a bound
+    lod::OperationCounts operations;  ///< of this frame
     uint32_t draw_calls = 0, commands = 0;
     uint64_t front_hash = 0;            ///< of all fronts' cuts
     uint64_t cut_triangles = 0;         ///< in the adaptive fronts, in view or not; not reported

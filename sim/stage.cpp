@@ -111,6 +111,7 @@ void record_fronts(Stage& stage, FrameRecord& record) {
         if (!modules[i]) continue;
         record.triangles[i] = modules[i]->emitted_triangles();
         record.error_px[i] = modules[i]->error_px();
+        record.jump_px = std::max(record.jump_px, modules[i]->jump_px());
         record.front_hash = lod::hash_combine(record.front_hash, modules[i]->hash());
     }
     const lod::OperationCounts now = all_operations(stage);

@@ -170,6 +170,26 @@ uint32_t DiamondMesh::make_kids(DiamondIndex index, SplitOutcome& outcome) {
     return block;
 }
 
+/// The record of a point that ends the diamond's hypotenuse. It is a corner of each parent as well: its apex, or the
+/// end of its own hypotenuse.
+DiamondIndex DiamondMesh::corner_at(DiamondIndex index, GridPoint point) const {
+    while (index != kRoot) {
+        const Diamond& d = diamonds_[index];
+        index = is_record(d.parent[0]) ? d.parent[0] : d.parent[1];
+        for (DiamondIndex apex : diamonds_[index].parent) {
+            if (is_record(apex) && diamonds_[apex].centre() == point) return apex;
+        }
+    }
+    return (point.x == 0 ? 0u : 1u) + (point.y == 0 ? 0u : 2u);
+}
+
+std::array<DiamondIndex, 2> DiamondMesh::edge_ends(DiamondIndex index) const {
+    const Diamond& d = diamonds_[index];
+    const int reach = domain_.reach(d.level);
+    return {corner_at(index, step_from(d.centre(), d.apex_dir + 2, reach)),
+            corner_at(index, step_from(d.centre(), d.apex_dir + 6, reach))};
+}
+
 SplitOutcome DiamondMesh::split(DiamondIndex index) {
     SplitOutcome outcome;
     DCHECK(diamonds_[index].is_used() && !diamonds_[index].is_split);

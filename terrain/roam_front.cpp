@@ -14,17 +14,26 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr size_t kIncoherentShare = 4;
 /// Subtrees are worth taking back whole when their error is this many buckets (two octaves) below the limit.
 constexpr int kClimbMargin = 16;
+/// After a longer pause nobody remembers the last picture.
+constexpr double kLongestFrame_s = 0.5;
 
 }  // namespace
 
-RoamFront::RoamFront(DiamondTable table, const RoamOptions& options)
-    : table_(std::move(table)), options_(options), bound_of_(table_), mesh_(table_.domain) {
+RoamFront::RoamFront(DiamondTable table, const RoamOptions& options, std::unique_ptr<PageLoader> loader)
+    : table_(std::move(table)),
+      options_(options),
+      bound_of_(table_),
+      mesh_(table_.domain),
+      loader_(std::move(loader)),
+      glides_(options.glide_s) {
     scale_.reference_px = options.tolerance_px > 0.0 ? static_cast<float>(options.tolerance_px) : 1.0f;
     reset();
 }
 
 void RoamFront::reset() {
     queues_ = {};
+    glides_.clear();
+    leaving_triangles_ = 0;
     mesh_.clear();
     mesh_.reserve(options_.reserve_triangles);
     grow_arrays();
@@ -75,7 +84,7 @@ void RoamFront::rank(std::span<const DiamondIndex> some) {
     for (size_t lane = 0; lane < some.size(); ++lane) {
         RankTag& tag = mesh_.tag(some[lane]);
         tag.bucket = static_cast<Bucket>(now.bucket[lane]);
-        tag.stamp = stamp_ & 63;
+        tag.stamp = stamp_ & kStampMask;
         wake_m_[some[lane]] = walk_m[lane];
         wake_rad_[some[lane]] = turn_rad[lane];
     }
@@ -83,7 +92,7 @@ void RoamFront::rank(std::span<const DiamondIndex> some) {
 
 void RoamFront::enqueue(DiamondIndex index, Queue queue) {
     DCHECK(queue_of(index) == Queue::kNone);
-    mesh_.tag(index).queue = static_cast<uint8_t>(queue) & 3;
+    mesh_.tag(index).queue = static_cast<uint8_t>(queue) & 7;
     queue_at(queue).push(ranks_, index, bucket_of(index));
 }
 
@@ -96,7 +105,7 @@ void RoamFront::dequeue(DiamondIndex index) {
 /// Out of its queue, but still awake at its time.
 void RoamFront::unlink(DiamondIndex index) {
     queue_at(queue_of(index)).remove(ranks_, index, bucket_of(index));
-    mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 3;
+    mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 7;
 }
 
 /// Evaluates at most four queued records anew and moves them to their buckets.
@@ -107,6 +116,13 @@ void RoamFront::refresh(std::span<const DiamondIndex> some) {
     rank(some);
     for (size_t i = 0; i < some.size(); ++i) {
         if (bucket_of(some[i]) == before[i]) continue;
+        if (queue_of(some[i]) == Queue::kLeave && bucket_of(some[i]) > before[i]) {
+            queue_at(Queue::kLeave).remove(ranks_, some[i], before[i]);
+            mesh_.tag(some[i]).queue = static_cast<uint8_t>(Queue::kNone) & 7;
+            stay(some[i]);
+            enqueue(some[i], Queue::kMerge);
+            continue;
+        }
         BucketQueue& queue = queue_at(queue_of(some[i]));
         queue.remove(ranks_, some[i], before[i]);
         queue.push(ranks_, some[i], bucket_of(some[i]));
@@ -152,20 +168,33 @@ void RoamFront::collect_due() {
     }
 }
 
-void RoamFront::begin_frame(std::span<const lod::View> views, double) {
+void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
+    if (loader_ && loader_->exchange(views, time_s, table_) > 0) recall_waiting();
     const EyeOdometer::Step step = odometer_.advance(views, bound_of_.anchor_world());
     if (step != EyeOdometer::Step::kAdvanced) rewind_alarms(step);
     ++stamp_;
     tessellator_.begin_frame();
     collect_due();
-    if (options_.is_pruning && due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64)
-        take_back_incoherent();
+    const bool is_incoherent = due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64;
+    const double passed_s = time_s - std::exchange(now_s_, time_s);
+    advance_glides(is_incoherent || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
+                   passed_s > kLongestFrame_s);
+    if (options_.is_pruning && is_incoherent) take_back_incoherent();
     // Some may have gone with what was taken back.
     std::erase_if(due_,
                   [&](DiamondIndex index) { return index >= mesh_.record_count() || !is_queued(index); });
     for (size_t i = 0; i < due_.size(); i += 4)
         refresh(std::span(due_).subspan(i, std::min<size_t>(4, due_.size() - i)));
+}
+
+/// Pages have come: what waited is asked again.
+void RoamFront::recall_waiting() {
+    while (!waits().is_empty()) {
+        const DiamondIndex index = waits().head(waits().highest());
+        unlink(index);
+        enqueue(index, Queue::kSplit);
+    }
 }
 
 double RoamFront::refine_error_px() {
@@ -195,12 +224,13 @@ double RoamFront::coarsen_error_px() {
     return std::numeric_limits<double>::infinity();
 }
 
+/// What is under way is as wrong as its place is far, beyond what the mesh around it is.
 double RoamFront::error_px() {
-    double worst = 0.0;
+    double settled = 0.0;
     for (BucketQueue* queue : {&splits(), &waits()}) {
-        if (!queue->is_empty()) worst = std::max(worst, double(scale_.upper_px(queue->highest())));
+        if (!queue->is_empty()) settled = std::max(settled, double(scale_.upper_px(queue->highest())));
     }
-    return worst;
+    return settled + glide_px_;
 }
 
 /// Splits one candidate whose parents are split.
@@ -209,8 +239,16 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
-    for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i)
-        dequeue(outcome.no_longer_mergeable[i]);
+    if (is_gliding(index)) {
+        start_glide(index, false);
+    } else {
+        note_pop(index);
+    }
+    for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
+        const DiamondIndex parent = outcome.no_longer_mergeable[i];
+        if (queue_of(parent) == Queue::kLeave) stay(parent);
+        dequeue(parent);
+    }
     if (outcome.created_count > 0) admit({outcome.created.data(), outcome.created_count});
     // Its evaluation stands; that it does not watch for a fall yet only delays a merge until it next wakes.
     enqueue(index, Queue::kMerge);
@@ -233,7 +271,7 @@ void RoamFront::fetch_ahead(DiamondIndex head) const {
     for (int side = 0; side < 4; ++side) {
         const GridPoint child =
             step_from(d.centre(), d.apex_dir + 2 * side + 1, table_.domain.child_step(d.level));
-        if (table_.domain.contains(child)) __builtin_prefetch(&table_.at(child, d.level + 1));
+        if (table_.domain.contains(child)) __builtin_prefetch(table_.find(child, d.level + 1));
     }
 }
 
@@ -253,7 +291,7 @@ bool RoamFront::are_children_here(DiamondIndex index) const {
 bool RoamFront::make_chain(DiamondIndex head) {
     chain_.assign(1, head);
     while (true) {
-        if (is_paged_ && !are_children_here(chain_.back())) return false;
+        if (loader_ && !are_children_here(chain_.back())) return false;
         const DiamondIndex missing = mesh_.missing_parent(chain_.back());
         if (missing == kOutside) return true;
         chain_.push_back(missing);
@@ -262,7 +300,7 @@ bool RoamFront::make_chain(DiamondIndex head) {
 
 lod::Step RoamFront::refine() {
     lod::Step step;
-    const uint64_t before = mesh_.triangles();
+    const uint64_t before = triangles();
     while (refine_error_px() > 0.0) {
         const DiamondIndex head = splits().head(splits().highest());
         fetch_ahead(head);
@@ -278,13 +316,14 @@ lod::Step RoamFront::refine() {
         }
         break;
     }
-    step.triangle_delta = static_cast<int64_t>(mesh_.triangles() - before);
+    step.triangle_delta = static_cast<int64_t>(triangles() - before);
     return step;
 }
 
 /// Merges one diamond without split children; its record becomes a candidate again.
 void RoamFront::merge_one(DiamondIndex index) {
     unlink(index);
+    glides_.drop(index, mesh_[index].level);
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);
@@ -298,21 +337,26 @@ void RoamFront::merge_one(DiamondIndex index) {
 lod::Step RoamFront::coarsen(double limit_px) {
     lod::Step step;
     if (coarsen_error_px() > limit_px) return step;
-    const uint64_t before = mesh_.triangles();
+    const uint64_t before = triangles();
     const Bucket bucket = merges().lowest();
     const DiamondIndex head = merges().head(bucket);
     const Bucket limit = limit_px > 0.0 ? scale_.bucket_of(static_cast<float>(limit_px)) : kFlatBucket;
-    const bool is_far_below = bucket == kHiddenBucket || bucket + kClimbMargin <= limit;
+    // What is seen glides back one by one; what is not may go as a whole.
+    const bool is_far_below =
+        bucket == kHiddenBucket || (bucket + kClimbMargin <= limit && !is_gliding(head));
     const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, limit) : head;
     if (top == head) {
-        merge_one(head);
+        if (!is_gliding(head) || !leave(head)) {
+            note_pop(head);
+            merge_one(head);
+        }
         step.steps = 1;
         ++operations_[lod::OperationKind::kMerge];
     } else {
         step.steps = merge_subtree(top);
         ++operations_[lod::OperationKind::kEnhMerge];
     }
-    step.triangle_delta = static_cast<int64_t>(mesh_.triangles()) - static_cast<int64_t>(before);
+    step.triangle_delta = static_cast<int64_t>(triangles()) - static_cast<int64_t>(before);
     return step;
 }
 
@@ -324,7 +368,7 @@ lod::PoolRegion RoamFront::pool_need() const {
 }
 
 void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
-    tessellator_.emit({table_, mesh_, ranks_, bound_of_}, view, out);
+    tessellator_.emit({table_, mesh_, ranks_, bound_of_, glides_}, view, out);
 }
 
 std::unique_ptr<RoamFront> make_roam_front(const data::HeightGrid& grid, const RoamOptions& options) {

@@ -23,7 +23,9 @@
 #include "terrain/diamond_rank.h"
 #include "terrain/diamond_table.h"
 #include "terrain/eye_odometer.h"
+#include "terrain/store/page_loader.h"
 #include "terrain/tessellator.h"
+#include "terrain/vertex_glides.h"
 
 namespace terrain {
 
@@ -33,25 +35,29 @@ struct RoamOptions {
     unsigned threads = 2;  ///< for the error computation; the result does not depend on it
     uint64_t reserve_triangles = 0;  ///< no operation allocates below this many
     bool is_pruning =
-        true;  ///< enhMerge: take whole subtrees back; false: one merge at a time, for comparison
+        true;              ///< enhMerge: take whole subtrees back; false: one merge at a time, for comparison
+    double glide_s = 0.0;  ///< time a vertex takes to its place and back; 0: it jumps
 };
 
 class RoamFront final : public lod::Front {
   public:
-    RoamFront(DiamondTable table, const RoamOptions& options);
+    /// @param loader  brings the table's pages while the front runs; null: all of them are there
+    RoamFront(DiamondTable table, const RoamOptions& options, std::unique_ptr<PageLoader> loader = nullptr);
 
     void begin_frame(std::span<const lod::View> views, double time_s) override;
     double refine_error_px() override;
     double coarsen_error_px() override;
     lod::Step refine() override;
     lod::Step coarsen(double limit_px) override;
-    uint64_t triangles() const override { return mesh_.triangles(); }
+    /// Those on their way back are no longer counted.
+    uint64_t triangles() const override { return mesh_.triangles() - leaving_triangles_; }
     double error_px() override;
     lod::OperationCounts operations() const override { return operations_; }
     uint64_t hash() const override { return mesh_.hash(); }
     lod::PoolRegion pool_need() const override;
     void place(const lod::PoolRegion& region) override { tessellator_.place(region); }
     void emit(const lod::View& view, lod::DrawList& out) override;
+    double jump_px() const override { return jump_px_; }
     uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
     std::string validate() const override;
 
@@ -60,20 +66,23 @@ class RoamFront final : public lod::Front {
 
     const DiamondMesh& mesh() const { return mesh_; }
     const DiamondTable& table() const { return table_; }
+    /// Null when the table is whole.
+    const PageLoader* loader() const { return loader_.get(); }
     /// Evaluations since construction: what lazy re-evaluation saves.
     uint64_t evaluations() const { return evaluations_; }
     /// Bytes of the front itself beyond the height grid and its errors, in use.
     uint64_t memory_bytes() const;
 
   private:
-    /// kWait: a candidate whose children's page is absent.
-    enum class Queue : uint8_t { kNone, kSplit, kMerge, kWait };
+    /// kWait: a candidate whose children's page is absent. kLeave: gliding back, merged when it is there.
+    enum class Queue : uint8_t { kNone, kSplit, kMerge, kWait, kLeave };
 
     Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
     Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
+    static constexpr uint8_t kStampMask = 31;
     bool is_queued(DiamondIndex index) const { return queue_of(index) != Queue::kNone; }
-    /// Evaluated in this very frame (or a multiple of 64 ago, which costs order, never a bound).
-    bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & 63); }
+    /// Evaluated in this very frame (or a multiple of 32 ago, which costs order, never a bound).
+    bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & kStampMask); }
     BucketQueue& queue_at(Queue queue) { return queues_[static_cast<size_t>(queue) - 1]; }
     BucketQueue& splits() { return queue_at(Queue::kSplit); }
     BucketQueue& merges() { return queue_at(Queue::kMerge); }
@@ -102,6 +111,18 @@ class RoamFront final : public lod::Front {
     bool is_little_worth_keeping(Bucket limit) const;
     void prune(Bucket limit);
     void take_back_incoherent();
+    void recall_waiting();
+
+    bool is_gliding(DiamondIndex index) const {
+        return options_.glide_s > 0.0 && !is_cut_ && bucket_of(index) > kFlatBucket;
+    }
+    void start_glide(DiamondIndex index, bool leaves);
+    void note_pop(DiamondIndex index);
+    uint64_t triangles_of(DiamondIndex index) const;
+    bool leave(DiamondIndex index);
+    void stay(DiamondIndex index);
+    void advance_glides(bool is_cut);
+    void measure_glides();
 
     DiamondTable table_;
     RoamOptions options_;
@@ -111,13 +132,21 @@ class RoamFront final : public lod::Front {
     DiamondMesh mesh_;
     std::vector<DiamondRank> ranks_;        ///< [record]
     std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
-    std::array<BucketQueue, 3> queues_;     ///< kSplit, kMerge, kWait
+    std::array<BucketQueue, 4> queues_;     ///< kSplit, kMerge, kWait, kLeave
 
     EyeOdometer odometer_;
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
 
-    bool is_paged_ = false;  ///< some pages are absent
+    std::unique_ptr<PageLoader> loader_;  ///< null: no page is ever absent
+    VertexGlides glides_;
+    double now_s_ = 0.0;
+    bool is_cut_ = true;              ///< this frame has nothing in common with the last: nothing glides
+    uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
+    double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
+    double jump_px_ = 0.0;
+    std::vector<DiamondIndex> back_;
+
     Tessellator tessellator_;
     lod::OperationCounts operations_;
     uint64_t evaluations_ = 0;

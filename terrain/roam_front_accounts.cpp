@@ -10,7 +10,7 @@ namespace terrain {
 std::string RoamFront::validate() const {
     std::string fault = validate_mesh(mesh_);
     if (!fault.empty()) return fault;
-    uint64_t queued = 0;
+    uint64_t queued = 0, leaving = 0;
     for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
         const Diamond& d = mesh_[i];
         const Queue expected = !d.is_used()        ? Queue::kNone
@@ -18,7 +18,9 @@ std::string RoamFront::validate() const {
                                : d.split_kids == 0 ? Queue::kMerge
                                                    : Queue::kNone;
         const bool waits = expected == Queue::kSplit && queue_of(i) == Queue::kWait;
-        if (queue_of(i) != expected && !waits)
+        const bool leaves = expected == Queue::kMerge && queue_of(i) == Queue::kLeave;
+        if (leaves) leaving += triangles_of(i);
+        if (queue_of(i) != expected && !waits && !leaves)
             return "diamond " + std::to_string(i) + " is in the wrong queue";
         queued += expected != Queue::kNone ? 1 : 0;
         if (expected == Queue::kNone || odometer_.eyes().empty()) continue;
@@ -26,6 +28,7 @@ std::string RoamFront::validate() const {
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
         }
     }
+    if (leaving != leaving_triangles_) return "miscounts what leaves";
     uint64_t linked = 0;
     for (const BucketQueue& queue : queues_) {
         for (uint32_t b = 0; b < kBucketCount; ++b) {

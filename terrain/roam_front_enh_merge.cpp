@@ -42,6 +42,8 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
             continue;
         }
         stack_.pop_back();
+        if (queue_of(index) == Queue::kLeave) leaving_triangles_ -= triangles_of(index);
+        glides_.drop(index, mesh_[index].level);
         dequeue(index);
         const MergeOutcome outcome = mesh_.merge(index);
         ++count;

@@ -46,7 +46,11 @@ lod::Vertex ground_vertex(const TessellationInput& input, DiamondIndex index) {
     lod::Vertex vertex;
     const glm::dvec3 world =
         input.table.frame.world_from_sample(p.x, p.y, double(input.ranks[index].source.height_m));
-    lod::split_hi_lo(world, vertex.position_hi, vertex.position_lo);
+    const glm::dvec3 shown =
+        input.glides.is_empty()
+            ? world
+            : world + glm::dvec3(input.glides.displacement_m(index, input.mesh[index].level));
+    lod::split_hi_lo(shown, vertex.position_hi, vertex.position_lo);
     vertex.surface[0] = static_cast<uint16_t>(p.x);
     vertex.surface[1] = static_cast<uint16_t>(p.y);
     vertex.colour[0] = vertex.colour[1] = vertex.colour[2] = 255;

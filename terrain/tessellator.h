@@ -13,6 +13,7 @@
 #include "terrain/diamond_bound.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_rank.h"
+#include "terrain/vertex_glides.h"
 
 namespace terrain {
 
@@ -22,6 +23,7 @@ struct TessellationInput {
     const DiamondMesh& mesh;
     std::span<const DiamondRank> ranks;  ///< [record]
     const BoundMaker& bound_of;
+    const VertexGlides& glides;  ///< where vertices under way are
 };
 
 class Tessellator {

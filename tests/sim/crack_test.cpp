@@ -25,13 +25,14 @@ constexpr double kChordSag_m =
 constexpr double kMargin_cells = 3.0;
 
 struct Terrain {
-    explicit Terrain(data::HeightGrid heights)
+    Terrain(data::HeightGrid heights, double glide_s)
         : grid(std::move(heights)),
           front(terrain::make_diamond_table(grid, 2),
-                {.tolerance_px = 1.0, .reserve_triangles = 2 * kMostTriangles}) {}
+                {.tolerance_px = 1.0, .reserve_triangles = 3 * kMostTriangles, .glide_s = glide_s}) {}
     data::HeightGrid grid;
     terrain::RoamFront front;
     terrain_test::PoolTwin pool;
+    double time_s = 0.0;
 };
 
 glm::dvec3 up_at(const Terrain& terrain, const glm::dvec3& world) {
@@ -56,15 +57,23 @@ lod::View random_view(const Terrain& terrain, lod::Rng& rng) {
     return view;
 }
 
-/// Stops refinement anywhere: often early, sometimes at a triangle limit, now and then never.
+/// Stops refinement anywhere: often early, sometimes at a triangle limit, now and then never. Comes to the view in
+/// a few short steps, so that vertices glide when it is drawn.
 void adapt(Terrain& terrain, const lod::View& view, lod::Rng& rng) {
     lod::Front* fronts[] = {&terrain.front};
     lod::Budget budget;
     budget.tolerance_px = std::exp2(rng.between(-3.0, 3.0));
     budget.max_triangles = rng.unit() < 0.5 ? kMostTriangles : 2 + rng.below(kMostTriangles);
-    const auto operations = static_cast<uint64_t>(std::exp2(rng.between(0.0, 14.5))) - 1;
-    terrain.front.begin_frame({&view, 1}, 0.0);
-    lod::schedule(fronts, budget, lod::operation_limit(operations));
+    const glm::dvec3 step = glm::dvec3(rng.between(-1, 1), rng.between(-1, 1), rng.between(-1, 1)) *
+                            std::exp(rng.between(0.0, 5.0));
+    for (int before = 3; before >= 0; --before) {
+        lod::View there = view;
+        there.eye_world += step * double(before);
+        terrain.time_s += rng.between(0.01, 0.2);
+        const auto operations = static_cast<uint64_t>(std::exp2(rng.between(0.0, 14.5))) - 1;
+        terrain.front.begin_frame({&there, 1}, terrain.time_s);
+        lod::schedule(fronts, budget, lod::operation_limit(operations));
+    }
 }
 
 /// Triangles and writes of a view; `list` keeps what a renderer needs.
@@ -134,10 +143,16 @@ Tally count_cracks(const Terrain& terrain, const lod::View& view, const render::
     return tally;
 }
 
-void expect_no_cracks(const std::string& path, int views, uint64_t seed) {
+struct Trial {
+    int views = 0;
+    uint64_t seed = 0;
+    double glide_s = 0.0;
+};
+
+void expect_no_cracks(const std::string& path, const Trial& trial) {
     auto grid = data::read_height_grid({path}, {});
     ASSERT_TRUE(grid) << grid.message();
-    Terrain terrain(std::move(*grid));
+    Terrain terrain(std::move(*grid), trial.glide_s);
     lod::PoolRegion region = terrain.front.pool_need();
     region.index_capacity *= 2;  // the view and what lies below its eye
     terrain.front.place(region);
@@ -152,9 +167,10 @@ void expect_no_cracks(const std::string& path, int views, uint64_t seed) {
     vacuum.visibility_m = 1e15;
     vacuum.draw_sky = false;
 
-    lod::Rng rng(seed);
+    lod::Rng rng(trial.seed);
+    double largest_glide_px = 0.0;
     Tally sum;
-    for (int i = 0; i < views; ++i) {
+    for (int i = 0; i < trial.views; ++i) {
         SCOPED_TRACE("view " + std::to_string(i));
         lod::View view = random_view(terrain, rng);
         adapt(terrain, view, rng);
@@ -165,28 +181,39 @@ void expect_no_cracks(const std::string& path, int views, uint64_t seed) {
         emit(terrain, view, list);
         vacuum.up_world = up_at(terrain, view.eye_world);
         renderer->draw(view, list, vacuum);
+        largest_glide_px = std::max(largest_glide_px, terrain.front.jump_px());
         const Tally tally = count_cracks(terrain, view, renderer->read_colour());
         EXPECT_EQ(tally.cracks, 0u) << "with " << terrain.front.triangles() << " triangles";
         sum.covered += tally.covered;
         sum.background += tally.background;
         sum.cracks += tally.cracks;
     }
-    std::printf("%d views: %llu pixels of ground, %llu of background, %llu cracks\n", views,
+    std::printf("%d views: %llu pixels of ground, %llu of background, %llu cracks\n", trial.views,
                 static_cast<unsigned long long>(sum.covered), static_cast<unsigned long long>(sum.background),
                 static_cast<unsigned long long>(sum.cracks));
+    EXPECT_EQ(trial.glide_s > 0.0, largest_glide_px > 0.0) << "something should glide, or nothing";
     EXPECT_GT(sum.covered, sum.background / 2) << "the views should see ground";
     EXPECT_GT(sum.background, sum.covered / 100) << "the background should show where there is no ground";
 }
 
+const std::string kJacksboro = std::string(HARRIER_SOURCE_DIR) + "/data/samples/jacksboro.tif";
+const std::string kBigTujunga =
+    std::string(HARRIER_SOURCE_DIR) + "/../shared/data/terrain/srtm_bigtujunga30m_utm11.tif";
+
 TEST(Cracks, NoneOverJacksboro) {
-    expect_no_cracks(std::string(HARRIER_SOURCE_DIR) + "/data/samples/jacksboro.tif", 1000, 21);
+    expect_no_cracks(kJacksboro, {900, 21, 0.0});
+}
+TEST(Cracks, NoneWhileVerticesGlide) {
+    expect_no_cracks(kJacksboro, {900, 23, 0.4});
 }
 
 TEST(Cracks, NoneOverBigTujunga) {
-    const std::string path =
-        std::string(HARRIER_SOURCE_DIR) + "/../shared/data/terrain/srtm_bigtujunga30m_utm11.tif";
-    if (!std::ifstream(path)) GTEST_SKIP() << path << " is not on this machine";
-    expect_no_cracks(path, 1000, 22);
+    if (!std::ifstream(kBigTujunga)) GTEST_SKIP() << kBigTujunga << " is not on this machine";
+    expect_no_cracks(kBigTujunga, {900, 22, 0.0});
+}
+TEST(Cracks, NoneOverBigTujungaWhileVerticesGlide) {
+    if (!std::ifstream(kBigTujunga)) GTEST_SKIP() << kBigTujunga << " is not on this machine";
+    expect_no_cracks(kBigTujunga, {900, 24, 0.4});
 }
 
 }  // namespace

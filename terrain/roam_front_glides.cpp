@@ -1,0 +1,107 @@
+// Gliding: new vertices glide in, superfluous ones glide out before they are merged, and what still jumps is told.
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/roam_front.h"
+
+namespace terrain {
+namespace {
+
+/// Pixels a displacement costs at a place in view; 0 out of view. The bound of lod/screen_error.h.
+double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place, const glm::vec3& way) {
+    const double length = static_cast<double>(glm::length(way));
+    if (length == 0.0) return 0.0;
+    double worst = 0.0;
+    for (const AnchoredEye& eye : eyes) {
+        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(place) - eye.eye);
+        if (lod::distance_outside_m(eye.metric, centre, length) > 0.0) continue;
+        worst = std::max(worst, lod::screen_error_px(eye.metric, centre, length, length));
+    }
+    return worst;
+}
+
+}  // namespace
+
+void RoamFront::start_glide(DiamondIndex index, bool leaves) {
+    VertexGlide glide;
+    glide.index = index;
+    glide.ends = mesh_.edge_ends(index);
+    glm::vec3 middle(0.0f);
+    for (size_t end = 0; end < 2; ++end) {
+        glide.end_levels[end] = static_cast<uint8_t>(mesh_[glide.ends[end]].level);
+        middle += 0.5f * bound(glide.ends[end]).centre;
+    }
+    glide.edge_from_place_m = middle - bound(index).centre;
+    glides_.start(glide, mesh_[index].level, leaves, now_s_);
+}
+
+/// A vertex in view that appears or goes without a glide, not in a cut, jumps by what its diamond may be wrong.
+void RoamFront::note_pop(DiamondIndex index) {
+    if (is_cut_ || bucket_of(index) <= kFlatBucket) return;
+    jump_px_ = std::max(jump_px_, static_cast<double>(scale_.upper_px(bucket_of(index))));
+}
+
+/// Triangles that merging this diamond takes away.
+uint64_t RoamFront::triangles_of(DiamondIndex index) const {
+    return static_cast<uint64_t>(std::count_if(std::begin(mesh_[index].parent), std::end(mesh_[index].parent),
+                                               [](DiamondIndex parent) { return is_record(parent); }));
+}
+
+/// Sends a mergeable diamond's vertex back to its edge; false when it lies there already.
+bool RoamFront::leave(DiamondIndex index) {
+    start_glide(index, true);
+    unlink(index);
+    enqueue(index, Queue::kLeave);
+    leaving_triangles_ += triangles_of(index);
+    return true;
+}
+
+/// It is wanted after all.
+void RoamFront::stay(DiamondIndex index) {
+    glides_.turn_round(index, mesh_[index].level, false, now_s_);
+    leaving_triangles_ -= triangles_of(index);
+}
+
+/// Moves what is under way to where it is now; merges what is back on its edge. In a cut everything is there at
+/// once.
+void RoamFront::advance_glides(bool is_cut) {
+    is_cut_ = is_cut;
+    jump_px_ = glide_px_ = 0.0;
+    if (is_cut) {
+        for (int level = 0; level <= table_.domain.finest_level(); ++level) {
+            for (const VertexGlide& glide : glides_.at_level(level))
+                tessellator_.add_vertex(glide.index);
+        }
+        glides_.clear();
+        back_.clear();
+        BucketQueue& leaves = queue_at(Queue::kLeave);
+        while (!leaves.is_empty()) {
+            const DiamondIndex index = leaves.head(leaves.lowest());
+            leaving_triangles_ -= triangles_of(index);
+            unlink(index);
+            enqueue(index, Queue::kMerge);
+        }
+        return;
+    }
+    glides_.advance(now_s_, back_);
+    measure_glides();
+    for (DiamondIndex index : back_) {
+        leaving_triangles_ -= triangles_of(index);
+        merge_one(index);
+        ++operations_[lod::OperationKind::kMerge];
+    }
+}
+
+void RoamFront::measure_glides() {
+    for (int level = 0; level <= table_.domain.finest_level(); ++level) {
+        for (const VertexGlide& glide : glides_.at_level(level)) {
+            const glm::vec3 place = bound(glide.index).centre;
+            tessellator_.add_vertex(glide.index);
+            glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), place, glide.shown_m));
+            jump_px_ =
+                std::max(jump_px_, displacement_px(odometer_.eyes(), place, glide.shown_m - glide.before_m));
+        }
+    }
+}
+
+}  // namespace terrain

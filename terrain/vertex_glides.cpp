@@ -1,0 +1,97 @@
+#include "terrain/vertex_glides.h"
+
+#include <algorithm>
+
+namespace terrain {
+namespace {
+
+bool is_before(const VertexGlide& glide, DiamondIndex index) {
+    return glide.index < index;
+}
+
+float smooth(float x) {
+    return x * x * (3.0f - 2.0f * x);
+}
+
+}  // namespace
+
+VertexGlide* VertexGlides::find(DiamondIndex index, int level) {
+    std::vector<VertexGlide>& glides = level_of(level);
+    const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
+    return at != glides.end() && at->index == index ? &*at : nullptr;
+}
+
+float VertexGlides::weight(const VertexGlide& glide, double now_s) const {
+    // What has less far to go takes less time, so that the speed is the same.
+    const double whole = duration_s_ * static_cast<double>(std::abs(glide.to - glide.from));
+    if (now_s >= glide.start_s + whole) return glide.to;
+    const double done = std::max(now_s - glide.start_s, 0.0) / whole;
+    return glide.from + (glide.to - glide.from) * smooth(static_cast<float>(done));
+}
+
+void VertexGlides::turn(VertexGlide& glide, bool leaves, double now_s) const {
+    glide.from = weight(glide, now_s);
+    glide.to = leaves ? 1.0f : 0.0f;
+    glide.start_s = now_s;
+}
+
+void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, double now_s) {
+    std::vector<VertexGlide>& glides = level_of(level);
+    const auto at = std::lower_bound(glides.begin(), glides.end(), glide.index, is_before);
+    if (at != glides.end() && at->index == glide.index) return turn(*at, leaves, now_s);
+    VertexGlide fresh = glide;
+    fresh.from = leaves ? 0.0f : 1.0f;
+    fresh.to = 1.0f - fresh.from;
+    fresh.start_s = now_s;
+    const glm::vec3 ends = displacement_m(glide.ends[0], glide.end_levels[0]) +
+                           displacement_m(glide.ends[1], glide.end_levels[1]);
+    fresh.shown_m = fresh.before_m = fresh.from * (glide.edge_from_place_m + 0.5f * ends);
+    glides.insert(at, fresh);
+    ++count_;
+}
+
+void VertexGlides::turn_round(DiamondIndex index, int level, bool leaves, double now_s) {
+    if (VertexGlide* glide = find(index, level)) turn(*glide, leaves, now_s);
+}
+
+void VertexGlides::drop(DiamondIndex index, int level) {
+    std::vector<VertexGlide>& glides = level_of(level);
+    const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
+    if (at == glides.end() || at->index != index) return;
+    glides.erase(at);
+    --count_;
+}
+
+void VertexGlides::clear() {
+    for (std::vector<VertexGlide>& glides : levels_)
+        glides.clear();
+    count_ = 0;
+}
+
+void VertexGlides::advance(double now_s, std::vector<DiamondIndex>& back) {
+    back.clear();
+    for (std::vector<VertexGlide>& glides : levels_) {
+        for (VertexGlide& glide : glides) {
+            const float w = weight(glide, now_s);
+            const glm::vec3 ends = displacement_m(glide.ends[0], glide.end_levels[0]) +
+                                   displacement_m(glide.ends[1], glide.end_levels[1]);
+            glide.before_m = glide.shown_m;
+            glide.shown_m = w * (glide.edge_from_place_m + 0.5f * ends);
+            if (glide.to == 1.0f && w == 1.0f) back.push_back(glide.index);
+        }
+    }
+    // Arrived, and shown there once: dropped with the next frame, so that its last step is drawn, too.
+    for (std::vector<VertexGlide>& glides : levels_) {
+        count_ -= std::erase_if(glides, [](const VertexGlide& glide) {
+            return glide.to == 0.0f && glide.shown_m == glm::vec3(0.0f) && glide.before_m == glm::vec3(0.0f);
+        });
+    }
+}
+
+glm::vec3 VertexGlides::displacement_m(DiamondIndex index, int level) const {
+    const std::vector<VertexGlide>& glides = levels_[static_cast<size_t>(level)];
+    const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
+    return at != glides.end() && at->index == index ? at->shown_m : glm::vec3(0.0f);
+}
+
+}  // namespace terrain

@@ -1,0 +1,184 @@
+// Gliding vertices: what a frame changes on the drawn surface is what the front says it is, small, and gone in time.
+#include <gtest/gtest.h>
+
+#include "lod/scheduler.h"
+#include "terrain/roam_front.h"
+#include "tests/terrain/drawn_mesh.h"
+#include "tests/terrain/test_relief.h"
+
+namespace {
+
+using terrain_test::DrawnTriangle;
+
+constexpr int kSide = 257;
+constexpr double kCell_m = 10.0, kRate = 60.0;
+
+const data::HeightGrid& relief() {
+    static const data::HeightGrid grid = terrain_test::fractal_grid(kSide, kSide, kCell_m, 400.0, 5);
+    return grid;
+}
+
+/// 100 m/s over the relief, turning slowly.
+lod::View flight(int frame) {
+    const double t = frame / kRate;
+    return terrain_test::level_view({300.0 + 80.0 * t, 400.0 + 60.0 * t, 420.0}, 0.7 + 0.05 * t, -0.15);
+}
+
+/// Heights of the drawn surface over every sample; NaN where nothing is drawn.
+std::vector<double> drawn_heights(std::span<const DrawnTriangle> triangles) {
+    std::vector<double> heights(kSide * kSide, std::nan(""));
+    for (const DrawnTriangle& t : triangles) {
+        const auto [a, b, c] = t.samples;
+        const double area = double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y);
+        for (int y = std::min({a.y, b.y, c.y}); y <= std::max({a.y, b.y, c.y}); ++y) {
+            for (int x = std::min({a.x, b.x, c.x}); x <= std::max({a.x, b.x, c.x}); ++x) {
+                const double u = (double(x - a.x) * (c.y - a.y) - double(c.x - a.x) * (y - a.y)) / area;
+                const double v = (double(b.x - a.x) * (y - a.y) - double(x - a.x) * (b.y - a.y)) / area;
+                if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
+                heights[static_cast<size_t>(y * kSide + x)] =
+                    t.world[0].z + u * (t.world[1].z - t.world[0].z) + v * (t.world[2].z - t.world[0].z);
+            }
+        }
+    }
+    return heights;
+}
+
+/// A front that is drawn every frame, and the surface it drew.
+struct Rig {
+    explicit Rig(double glide_s)
+        : front(terrain::make_diamond_table(relief(), 2),
+                {.tolerance_px = 1.0, .reserve_triangles = 60'000, .glide_s = glide_s}) {}
+
+    void frame(const lod::View& view, double time_s, uint64_t operations = UINT64_MAX) {
+        lod::Front* fronts[] = {&front};
+        front.begin_frame({&view, 1}, time_s);
+        lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(operations));
+        if (front.pool_need().index_capacity > placed.index_capacity ||
+            front.pool_need().vertex_capacity > placed.vertex_capacity) {
+            placed = front.pool_need();
+            front.place(placed);
+        }
+        lod::DrawList list;
+        front.emit(view, list);
+        pool.apply(list);
+        before = std::move(now);
+        now = drawn_heights(terrain_test::drawn_triangles(pool, list, lod::Module::kTerrain));
+    }
+
+    /// The farthest the surface over any sample in view has moved since the last frame, px.
+    double moved_px(const lod::View& view) const {
+        const lod::ViewMetric metric = lod::metric_of(view);
+        double worst = 0.0;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const size_t i = static_cast<size_t>(y * kSide + x);
+                if (std::isnan(now[i]) || std::isnan(before[i])) continue;
+                const glm::dvec3 at(x * kCell_m, (kSide - 1 - y) * kCell_m, now[i]);
+                const glm::dvec3 eye = metric.eye_from_world * (at - view.eye_world);
+                if (lod::distance_outside_m(metric, eye, 0.0) > 0.0) continue;
+                const glm::dvec3 was =
+                    metric.eye_from_world * (glm::dvec3(at.x, at.y, before[i]) - view.eye_world);
+                const glm::dvec2 shift = glm::dvec2(eye) / -eye.z - glm::dvec2(was) / -was.z;
+                worst = std::max(worst, metric.lambda_px * glm::length(shift));
+            }
+        }
+        return worst;
+    }
+
+    terrain::RoamFront front;
+    terrain_test::PoolTwin pool;
+    lod::PoolRegion placed;
+    std::vector<double> now, before;
+};
+
+TEST(Glide, TheSurfaceMovesNoMoreThanTold) {
+    Rig rig(0.4), jumping(0.0);
+    double worst_px = 0.0, worst_told_px = 0.0, worst_jump_px = 0.0;
+    for (int frame = 0; frame < 150; ++frame) {
+        SCOPED_TRACE(frame);
+        const lod::View view = flight(frame);
+        rig.frame(view, frame / kRate);
+        jumping.frame(view, frame / kRate);
+        if (frame % 20 == 0) {
+            ASSERT_EQ(rig.front.validate(), "");
+        }
+        if (frame == 0) continue;
+        const double moved_px = rig.moved_px(view);
+        ASSERT_LE(moved_px, rig.front.jump_px() + 1e-3);
+        worst_px = std::max(worst_px, moved_px);
+        worst_told_px = std::max(worst_told_px, rig.front.jump_px());
+        worst_jump_px = std::max(worst_jump_px, jumping.moved_px(view));
+    }
+    RecordProperty("moved_px_gliding", std::to_string(worst_px));
+    RecordProperty("moved_px_jumping", std::to_string(worst_jump_px));
+    EXPECT_LE(worst_told_px, 0.2);
+    EXPECT_GT(worst_jump_px, 0.6) << "the flight has nothing to smooth";
+    EXPECT_GT(worst_px, 0.0);
+}
+
+TEST(Glide, StandingStillEverythingArrives) {
+    Rig rig(0.4);
+    for (int frame = 0; frame < 60; ++frame)
+        rig.frame(flight(frame), frame / kRate);
+    for (int frame = 60; frame < 100; ++frame)
+        rig.frame(flight(60), frame / kRate);
+    EXPECT_EQ(rig.front.jump_px(), 0.0);
+    EXPECT_LE(rig.front.error_px(), 1.0);
+    for (size_t i = 0; i < rig.now.size(); ++i) {
+        if (std::isnan(rig.now[i])) continue;
+        ASSERT_EQ(rig.now[i], rig.before[i]) << i;
+    }
+    EXPECT_EQ(rig.front.validate(), "");
+}
+
+TEST(Glide, ACutShowsTheMeshAtItsPlace) {
+    Rig rig(0.4);
+    for (int frame = 0; frame < 30; ++frame)
+        rig.frame(flight(frame), frame / kRate);
+    const lod::View elsewhere = terrain_test::level_view({2000.0, 1900.0, 350.0}, 3.9, -0.2);
+    rig.frame(elsewhere, 30 / kRate);
+    EXPECT_EQ(rig.front.jump_px(), 0.0);
+    EXPECT_LE(rig.front.error_px(), 1.0);
+    EXPECT_EQ(rig.front.validate(), "");
+}
+
+TEST(Glide, StarvedAndJerkyFlightStaysValid) {
+    Rig rig(0.4);
+    lod::Rng rng(6);
+    double time_s = 0.0;
+    for (int frame = 0; frame < 200; ++frame) {
+        SCOPED_TRACE(frame);
+        time_s += rng.between(0.0, 0.1);
+        lod::View view = flight(static_cast<int>(rng.between(0.0, 240.0)));
+        if (rng.unit() < 0.8) view = flight(frame);
+        rig.frame(view, time_s, rng.below(60));
+        ASSERT_EQ(rig.front.validate(), "");
+    }
+}
+
+/// A glide is a function of time: where a vertex is does not depend on how often somebody looked.
+TEST(Glide, DoesNotDependOnTheFrameRate) {
+    terrain::VertexGlides seldom(0.5), often(0.5);
+    terrain::VertexGlide glide;
+    glide.edge_from_place_m = {0.0f, 0.0f, 8.0f};
+    std::vector<terrain::DiamondIndex> back;
+    for (terrain::VertexGlides* glides : {&seldom, &often}) {
+        for (terrain::DiamondIndex index : {10u, 11u}) {
+            glide.index = index;
+            glide.ends = index == 10 ? std::array{0u, 1u} : std::array{10u, 1u};
+            glide.end_levels = {static_cast<uint8_t>(index == 10 ? 0 : 4), 0};
+            glides->start(glide, index == 10 ? 4 : 6, false, 1.0);
+        }
+    }
+    for (int step = 1; step <= 300; ++step)
+        often.advance(1.0 + step * 0.001, back);
+    seldom.advance(1.3, back);
+    for (const auto& [index, level] : {std::pair{10u, 4}, std::pair{11u, 6}}) {
+        EXPECT_NEAR(often.displacement_m(index, level).z, seldom.displacement_m(index, level).z, 1e-5f);
+        EXPECT_GT(often.displacement_m(index, level).z, 0.0f);
+    }
+    // The finer one hangs on an edge whose end is itself under way.
+    EXPECT_GT(seldom.displacement_m(11, 6).z, seldom.displacement_m(10, 4).z);
+}
+
+}  // namespace
