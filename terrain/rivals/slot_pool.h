@@ -15,11 +15,11 @@ class SlotPool {
         uint32_t capacity = 0;  ///< a power of two; 0: no slot
     };
 
-    /// Moves to a slot that holds `count`, unless this one does and is not four times too large. True when moved:
-    /// what it held is lost.
-    bool fit(Slot& slot, uint32_t count) {
+    /// Moves to a slot that holds `count`, unless this one does and is not four times too large. What it held is
+    /// lost.
+    void fit(Slot& slot, uint32_t count) {
         const uint32_t capacity = std::bit_ceil(count);
-        if (slot.capacity >= capacity && slot.capacity / 4 < capacity) return false;
+        if (slot.capacity >= capacity && slot.capacity / 4 < capacity) return;
         if (slot.capacity > 0) free_[size_class(slot.capacity)].push_back(slot.first);
         std::vector<uint32_t>& list = free_[size_class(capacity)];
         if (list.empty()) {
@@ -29,7 +29,6 @@ class SlotPool {
             slot = {list.back(), capacity};
             list.pop_back();
         }
-        return true;
     }
 
     /// All slots lie below this.

@@ -62,7 +62,7 @@ uint32_t VipmBlocks::triangles_of(uint32_t block) const {
 
 void VipmBlocks::fit_slot(uint32_t block) {
     const uint32_t most = stop(block).triangles + 4 * static_cast<uint32_t>(blocks().cells);
-    if (slot_pool_.fit(slots_[block], 3 * most)) is_dirty_[block] = 1;
+    slot_pool_.fit(slots_[block], 3 * most);
 }
 
 uint32_t VipmBlocks::on_move(uint32_t block, uint32_t from, lod::OperationCounts& operations) {

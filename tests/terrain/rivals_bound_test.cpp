@@ -156,6 +156,37 @@ TEST_P(RivalBound, HoldsOverRealRelief) {
     }
 }
 
+/// A strip that gives way to a coarser neighbour loses more than either block does alone: the border's chord lies too
+/// high and the sample beside it too low. That, too, must be counted.
+TEST(GeoMipmapBound, CountsWhatStitchingAdds) {
+    constexpr float kRise_m = 0.9f, kDip_m = 0.9f;
+    std::vector<float> heights(17 * 9, 0.0f);
+    const auto at = [&](int col, int row) -> float& { return heights[static_cast<size_t>(row * 17 + col)]; };
+    at(8, 0) = at(8, 8) = kRise_m;  // the ends of the common border
+    at(9, 4) = -kDip_m;             // beside it, in the east block
+    for (int row = 3; row <= 5;
+         ++row) {  // a pyramid that every other sample describes, and every fourth does not
+        for (int col = 11; col <= 13; ++col)
+            at(col, row) = 2.5f;
+    }
+    at(12, 4) = 5.0f;
+    const auto grid = data::make_planar_grid(17, 9, 10.0, std::move(heights));
+    const lod::View view = terrain_test::level_view({85.0, -4000.0, 0.0}, 0.0, 0.0);
+    const double px_per_m = 720.0 / (2.0 * std::tan(view.fov_y_rad / 2.0)) / 4000.0;
+    Truth truth{17, 9, 10.0, {}};
+    for (int i = 0; i < 17 * 9; ++i) {
+        const glm::dvec3 world(i % 17 * 10.0, (8 - i / 17) * 10.0, double(grid.at(i % 17, i / 17)));
+        truth.samples.push_back({i % 17, i / 17, world, {0.0, 0.0, 1.0}});
+    }
+    for (const double tolerance_m : {0.5, 0.8, 1.0, 1.2, 1.4, 2.0}) {
+        SCOPED_TRACE(tolerance_m);
+        const auto front = terrain::make_rival(Rival::kGeoMipmap, grid, terrain::make_diamond_table(grid, 1),
+                                               {.block_cells = 8});
+        Sharpness sharpness;
+        check(*front, view, tolerance_m * px_per_m, truth, sharpness);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, RivalBound,
                          testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks,
                                          Rival::kRoamMergeOnly),

@@ -67,6 +67,33 @@ TEST_P(ConformingRivals, HaveNoTJunction) {
     }
 }
 
+/// What an earlier frame has put into the pool stays; what has changed since is written again.
+TEST_P(ConformingRivals, KeepThePoolUpToDate) {
+    const RivalRelief relief(129, 129, 10.0, 300.0, 7);
+    const auto front = relief.front(GetParam(), 1.0, 16);
+    lod::Front* fronts[] = {front.get()};
+    terrain_test::PoolTwin pool;
+    lod::PoolRegion region;
+    lod::Rng rng(8);
+    for (int frame = 0; frame < 60; ++frame) {
+        SCOPED_TRACE("frame " + std::to_string(frame));
+        lod::View view = frame % 5 == 0 ? relief.whole() : relief.random_view(rng);
+        front->begin_frame({&view, 1}, 0.0);
+        lod::schedule(fronts, {.tolerance_px = std::exp2(rng.between(-3.0, 3.0))}, lod::operation_limit(300));
+        const lod::PoolRegion need = front->pool_need();
+        if (need.vertex_capacity > region.vertex_capacity || need.index_capacity > region.index_capacity) {
+            region = {100, 2 * need.vertex_capacity, 300, 2 * need.index_capacity};
+            front->place(region);
+        }
+        lod::DrawList list;
+        front->emit(view, list);
+        pool.apply(list);
+        const auto all = terrain_test::drawn_triangles(pool, list, lod::Module::kTerrain);
+        ASSERT_EQ(all.size(), front->emitted_triangles());
+        ASSERT_EQ(terrain_test::conformity_fault(all), "");
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, ConformingRivals,
                          testing::Values(Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kRoamMergeOnly),
                          [](const testing::TestParamInfo<Rival>& kind) {
