@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "sim/command_build.h"
 #include "sim/command_demo.h"
 #include "sim/command_fly.h"
 #include "sim/command_query.h"
@@ -36,6 +37,7 @@ int main(int count, char** words) {
     sim::FlyArguments fly;
     sim::StillArguments still;
     sim::ExtractArguments extract;
+    sim::BuildArguments build;
     sim::QueryArguments query;
     CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
     CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
@@ -43,17 +45,21 @@ int main(int count, char** words) {
     CLI::App& terrain_app =
         *app.add_subcommand("terrain", "work on rasters of heights")->require_subcommand(1);
     CLI::App& extract_app = *terrain_app.add_subcommand("extract", "a static mesh with a guaranteed error");
+    CLI::App& build_app =
+        *terrain_app.add_subcommand("build", "a store that is drawn without being read whole");
     CLI::App& query_app = *terrain_app.add_subcommand("query", "heights of the ground and lines of sight");
     sim::add_demo(demo_app, demo);
     sim::add_fly(fly_app, fly);
     sim::add_still(still_app, still);
     sim::add_extract(extract_app, extract);
+    sim::add_build(build_app, build);
     sim::add_query(query_app, query);
 
     const auto command = [&]() -> lod::Result<lod::Ok> {
         if (demo_app.parsed()) return sim::run_demo(demo);
         if (fly_app.parsed()) return sim::run_fly(fly);
         if (still_app.parsed()) return sim::run_still(still);
+        if (build_app.parsed()) return sim::run_build(build);
         if (query_app.parsed()) return sim::run_query(query);
         return sim::run_extract(extract);
     };

@@ -24,27 +24,12 @@ struct HeightRange {
     }
 };
 
-/// Calls visit(centre, level) for the diamonds of a page that exist.
-template <typename Visit>
-void for_each_diamond(const DiamondTable& table, const PageId& id, const Visit& visit) {
-    const Domain& domain = table.domain;
-    const int reach = domain.reach(2 * id.group), width = 2 * reach * kPageSide;
-    const GridPoint first{id.block_x * width, id.block_y * width};
-    for (int y = first.y; y <= std::min(first.y + width, domain.height - 1); y += reach) {
-        const int row = y / reach;
-        for (int x = first.x; x <= std::min(first.x + width, domain.width - 1); x += reach) {
-            const int column = x / reach;
-            if ((row & 1) != 0 && (column & 1) != 0) visit(GridPoint{x, y}, 2 * id.group);
-            if (((row ^ column) & 1) != 0) visit(GridPoint{x, y}, 2 * id.group + 1);
-        }
-    }
-}
-
 /// Heights in and below a page; those below are known by `pages`.
 HeightRange heights_of(const DiamondTable& table, size_t page, const std::vector<PageSummary>& pages) {
     const PageId id = table.layout.id(page);
     HeightRange range;
-    for_each_diamond(table, id, [&](GridPoint centre, int level) { range.add(table.at(centre, level)); });
+    for_each_diamond(table.domain, id,
+                     [&](GridPoint centre, int level) { range.add(table.at(centre, level)); });
     for_each_child(table.layout, id, [&](const PageId& child) {
         const PageSummary& below = pages[table.layout.number(child)];
         range.min_m = std::min(range.min_m, below.min_m);

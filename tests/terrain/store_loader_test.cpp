@@ -168,7 +168,6 @@ TEST(PageLoader, PagesAreThereBeforeTheyAreNeeded) {
             if (rig.paged.table.slot_of_page[page] == terrain::DiamondTable::kAbsent) ++late;
         }
     }
-    std::printf("late %zu of %zu\n", late, needed);
     RecordProperty("late_share", std::to_string(double(late) / double(needed)));
     EXPECT_GT(needed, 500u);
     EXPECT_LE(double(late), 0.02 * double(needed));
