@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "lod/base/rng.h"
 
@@ -157,29 +159,60 @@ void append_block(const Block& block, double share, lod::Rng& rng, const Builder
     }
 }
 
+/// A block of the plan: which one, its corners in the middle of the streets, how far out it lies.
+struct Plot {
+    int col = 0, row = 0;
+    Block streets;
+    double share = 0.0;  ///< of the radius
+};
+
+/// Calls `build(plot, rng)` for every block inside the town; the generator is the block's own.
+template <typename Build>
+void for_each_plot(const TownOptions& options, const Build& build) {
+    const int reach = static_cast<int>(options.radius_m / kBlockNorthM) + 2;
+    const uint64_t seed = options.seed;
+    for (int row = -reach; row < reach; ++row) {
+        for (int col = -reach; col < reach; ++col) {
+            Plot plot{col,
+                      row,
+                      {crossing(col, row, seed), crossing(col + 1, row, seed),
+                       crossing(col + 1, row + 1, seed), crossing(col, row + 1, seed)}};
+            plot.share = glm::length(at(inset(plot.streets, options.street_width_m / 2.0), 0.5, 0.5)) /
+                         options.radius_m;
+            lod::Rng rng(lod::hash_combine(seed + 1, static_cast<uint64_t>((row + 500) * 1000 + col + 500)));
+            if (plot.share + rng.between(-0.06, 0.06) <= 1.0) build(plot, rng);
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<TownBuilding> generate_town(const TownOptions& options) {
     std::vector<TownBuilding> buildings;
     const Builder town{options, buildings};
-    const int reach = static_cast<int>(options.radius_m / kBlockNorthM) + 2;
-    for (int row = -reach; row < reach; ++row) {
-        for (int col = -reach; col < reach; ++col) {
-            const uint64_t seed = options.seed;
-            const Block streets{crossing(col, row, seed), crossing(col + 1, row, seed),
-                                crossing(col + 1, row + 1, seed), crossing(col, row + 1, seed)};
-            const Block block = inset(streets, options.street_width_m / 2.0);
-            lod::Rng rng(lod::hash_combine(seed + 1, static_cast<uint64_t>((row + 500) * 1000 + col + 500)));
-            const double share = glm::length(at(block, 0.5, 0.5)) / options.radius_m;
-            if (share + rng.between(-0.06, 0.06) > 1.0) continue;
-            if (row == 0 && col == 0) {
-                append_church(block, town);
-            } else {
-                append_block(block, share, rng, town);
-            }
+    for_each_plot(options, [&](const Plot& plot, lod::Rng& rng) {
+        const Block block = inset(plot.streets, options.street_width_m / 2.0);
+        if (plot.row == 0 && plot.col == 0) {
+            append_church(block, town);
+        } else {
+            append_block(block, plot.share, rng, town);
         }
-    }
+    });
     return buildings;
+}
+
+std::vector<TownStreet> generate_streets(const TownOptions& options) {
+    std::set<std::array<int, 3>> sides;  // column, row, 0: eastwards from that crossing, 1: northwards
+    for_each_plot(options, [&](const Plot& plot, lod::Rng&) {
+        const auto [col, row] = std::pair(plot.col, plot.row);
+        sides.insert({{col, row, 0}, {col, row + 1, 0}, {col, row, 1}, {col + 1, row, 1}});
+    });
+    std::vector<TownStreet> streets;
+    for (const auto& [col, row, is_northwards] : sides) {
+        streets.push_back({crossing(col, row, options.seed),
+                           crossing(col + 1 - is_northwards, row + is_northwards, options.seed)});
+    }
+    return streets;
 }
 
 }  // namespace data

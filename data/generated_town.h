@@ -13,6 +13,11 @@ struct TownBuilding {
     double height_m = 0.0;
 };
 
+/// A straight piece of street between two crossings.
+struct TownStreet {
+    glm::dvec2 from{0.0}, to{0.0};  ///< metres east and north of the town's middle
+};
+
 struct TownOptions {
     uint64_t seed = 1;
     double radius_m = 540.0;  ///< where the last houses stand
@@ -22,5 +27,8 @@ struct TownOptions {
 /// Buildings of a town, blocks in rows, none overlapping another. The same for equal options on every machine
 /// but for the last bits of sine and cosine. About 750 buildings for the default radius.
 std::vector<TownBuilding> generate_town(const TownOptions& options);
+
+/// The streets around all blocks with buildings, each piece once; `street_width_m` wide from house to house.
+std::vector<TownStreet> generate_streets(const TownOptions& options);
 
 }  // namespace data

@@ -8,10 +8,14 @@
 #include "sim/ground_colour.h"
 #include "sim/noise.h"
 #include "sim/relief.h"
+#include "sim/street_cover.h"
 #include "sim/sunlight.h"
 
 namespace sim {
 namespace {
+
+constexpr glm::vec3 kStreet{0.62f, 0.61f, 0.585f};  // asphalt in the middle, paler pavements beside it
+constexpr float kStreetDetail = 0.3f, kPhotoDetail = 0.5f, kSeaDetail = 0.35f;  // share of the fine structure
 
 /// What is interpolated between samples. All floats, so that it can be mixed as an array.
 struct Sample {
@@ -34,6 +38,7 @@ struct Painting {
     glm::vec2 cell_m{1.0f};
     float steepening = 1.0f;  ///< for the light only: coarse samples have smoothed the slopes they measured
     float flat_light = 1.0f;  ///< luminance of level ground, what a photograph was taken under
+    StreetCover streets{};
 };
 
 Sample sample_at(const Painting& painting, int col, int row) {
@@ -113,7 +118,9 @@ glm::vec4 imagery_at(const Painting& painting, double col, double row) {
     return glm::vec4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
 
-glm::vec3 colour_at(const Painting& painting, const SampleRows& rows, double col, double row) {
+/// Display colour and, in w, how much fine structure shows. @param street  share of the spot that is street
+glm::vec4 colour_at(const Painting& painting, const SampleRows& rows, const glm::dvec2& at, float street) {
+    const double col = at.x, row = at.y;
     const Sample sample = rows.at(col);
     glm::vec2 gradient(sample.height_gradient.y, sample.height_gradient.z);
     GroundSpot spot;
@@ -123,7 +130,8 @@ glm::vec3 colour_at(const Painting& painting, const SampleRows& rows, double col
     spot.prominence_m = sample.land.x;
     spot.sea = sample.sea.x;
     spot.shore_m = sample.sea.y;
-    const glm::vec3 albedo = ground_albedo(spot, painting.climate);
+    const glm::vec3 albedo = glm::mix(ground_albedo(spot, painting.climate), kStreet, street);
+    float detail = glm::mix(glm::mix(1.0f, kSeaDetail, spot.sea), kStreetDetail, street);
 
     const float openness = std::clamp(0.85f + sample.land.x / 400.0f, 0.5f, 1.05f);
     const float lambert = cosine_to_sun(gradient * painting.steepening) * sample.land.y;
@@ -133,33 +141,34 @@ glm::vec3 colour_at(const Painting& painting, const SampleRows& rows, double col
         const float light = glm::dot(lit(glm::vec3(1.0f), lambert, openness), glm::vec3(0.3f, 0.6f, 0.1f));
         const float shading = glm::mix(1.0f, light / painting.flat_light, 0.45f);  // it has light of its own
         colour = glm::mix(colour, glm::vec3(photo) * shading, photo.w);
+        detail = glm::mix(detail, kPhotoDetail, photo.w);
     }
-    return colour;
+    return glm::vec4(colour, detail);
 }
 
 void paint_rows(const Painting& painting, data::Image& out, size_t begin, size_t end, int averaged) {
     SampleRows rows(painting);
     const double col_step = static_cast<double>(painting.grid.width) / out.width;
     const double row_step = static_cast<double>(painting.grid.height) / out.height;
-    std::vector<glm::vec3> line(static_cast<size_t>(out.width));
+    std::vector<glm::vec4> line(static_cast<size_t>(out.width));
     for (size_t y = begin; y < end; ++y) {
-        std::fill(line.begin(), line.end(), glm::vec3(0.0f));
+        std::fill(line.begin(), line.end(), glm::vec4(0.0f));
         for (int sub_row = 0; sub_row < averaged; ++sub_row) {
             const double row = (static_cast<double>(y) + (sub_row + 0.5) / averaged) * row_step - 0.5;
             rows.move_to(row);
             for (size_t x = 0; x < line.size(); ++x) {
+                const float street = painting.streets.at(static_cast<int>(x), static_cast<int>(y));
                 for (int sub_col = 0; sub_col < averaged; ++sub_col) {
                     const double col = (static_cast<double>(x) + (sub_col + 0.5) / averaged) * col_step - 0.5;
-                    line[x] += colour_at(painting, rows, col, row);
+                    line[x] += colour_at(painting, rows, {col, row}, street);
                 }
             }
         }
         uint8_t* texel = &out.rgba[y * line.size() * 4];
-        for (const glm::vec3& sum : line) {
-            const glm::vec3 colour = sum / static_cast<float>(averaged * averaged);
-            for (int i = 0; i < 3; ++i)
+        for (const glm::vec4& sum : line) {
+            const glm::vec4 colour = sum / static_cast<float>(averaged * averaged);
+            for (int i = 0; i < 4; ++i)
                 *texel++ = static_cast<uint8_t>(std::clamp(colour[i], 0.0f, 1.0f) * 255.0f + 0.5f);
-            *texel++ = 255;
         }
     }
 }
@@ -198,6 +207,7 @@ data::Image paint_ground(const data::HeightGrid& grid, const data::Image& imager
     data::Image image;
     image.width = std::max(grid.width * ratio.finer / ratio.coarser, 1);
     image.height = std::max(grid.height * ratio.finer / ratio.coarser, 1);
+    painting.streets = cover_streets(options.streets, grid, {image.width, image.height});
     image.rgba.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 4);
     lod::parallel_for(static_cast<size_t>(image.height), options.threads, [&](size_t begin, size_t end) {
         paint_rows(painting, image, begin, end, ratio.coarser);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "data/ground_height.h"
 #include "data/polygon_mesh.h"
+#include "data/streets.h"
 #include "objects/buildings.h"
 #include "sim/ground_texture.h"
 #include "sim/model_parts.h"
@@ -52,8 +54,22 @@ lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
     return lod::Ok{};
 }
 
+/// Of all sources of buildings; only for the picture.
+lod::Result<std::vector<data::Street>> read_all_streets(const World& world) {
+    std::vector<data::Street> all;
+    for (const BuildingSource& source : world.scene.buildings) {
+        lod::Result<std::vector<data::Street>> streets = data::read_streets(source.source, world.frame);
+        if (!streets) return streets.error();
+        all.insert(all.end(), std::make_move_iterator(streets->begin()),
+                   std::make_move_iterator(streets->end()));
+    }
+    return all;
+}
+
 lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
     const Stopwatch watch;
+    const lod::Result<std::vector<data::Street>> streets = read_all_streets(world);
+    if (!streets) return streets.error();
     data::Image imagery;
     const TerrainSource& source = *world.scene.terrain;
     if (!source.imagery.empty()) {
@@ -64,9 +80,11 @@ lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
     GroundTextureOptions painting;
     painting.max_px = kMaxTexture_px;
     painting.threads = options.threads;
+    painting.streets = *streets;
     world.ground_colours = paint_ground(*world.ground, imagery, painting);
-    say_progress(fmt::format("ground: {} x {} texels painted in {:.1f} s", world.ground_colours.width,
-                             world.ground_colours.height, watch.seconds()));
+    say_progress(fmt::format("ground: {} x {} texels with {} streets painted in {:.1f} s",
+                             world.ground_colours.width, world.ground_colours.height, streets->size(),
+                             watch.seconds()));
     return lod::Ok{};
 }
 

@@ -29,15 +29,19 @@ class TownFrame {
     glm::dmat3 world_from_enu_;
 };
 
-/// A closed ring; seven decimals of a degree are a centimetre.
+/// Seven decimals of a degree are a centimetre.
+std::string point_json(const glm::dvec2& east_north_m, const TownFrame& frame) {
+    const data::SitePoint site = frame.site(east_north_m);
+    char point[64];
+    std::snprintf(point, sizeof point, "[%.7f,%.7f]", site.x, site.y);
+    return point;
+}
+
+/// A closed ring.
 std::string ring_json(const std::vector<glm::dvec2>& ring, const TownFrame& frame) {
     std::string json = "[";
-    for (size_t i = 0; i <= ring.size(); ++i) {
-        const data::SitePoint site = frame.site(ring[i % ring.size()]);
-        char point[64];
-        std::snprintf(point, sizeof point, "%s[%.7f,%.7f]", i == 0 ? "" : ",", site.x, site.y);
-        json += point;
-    }
+    for (size_t i = 0; i <= ring.size(); ++i)
+        json += (i == 0 ? "" : ",") + point_json(ring[i % ring.size()], frame);
     return json + "]";
 }
 
@@ -54,6 +58,12 @@ bool write_town(const std::string& path) {
         }
         file << "]}}";
         is_first = false;
+    }
+    for (const data::TownStreet& street : data::generate_streets({})) {
+        file << ",\n"
+             << R"({"type":"Feature","properties":{"highway":"residential","width":)"
+             << data::TownOptions{}.street_width_m << R"(},"geometry":{"type":"LineString","coordinates":[)"
+             << point_json(street.from, frame) << "," << point_json(street.to, frame) << "]}}";
     }
     file << "\n]}\n";
     file.close();

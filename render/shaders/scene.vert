@@ -86,13 +86,14 @@ vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
 }
 
-// Which pattern lies on the surface. All walls of a building have one colour, so they get the same facade.
+// Which pattern lies on the surface. All walls of a building have one colour, so they get the same facade; one in
+// five has bands of glass.
 uint pattern_of(uint material, float steepness) {
     if (material == kGround) return kGrain;
     if (material == kRoof) return kRoofing;
     bool is_wall = (material == kWall || material == kWallFoot) && steepness < 0.5;
     uvec3 colour = colour_material.rgb;
-    return is_wall ? kFirstFacade + (colour.r * 7u + colour.g * 3u + colour.b) % 3u : kPlain;
+    return is_wall ? kFirstFacade + (colour.r * 7u + colour.g * 3u + colour.b) % 5u / 2u : kPlain;
 }
 
 // The roof's points along the two axes of the world that its normal is farthest from. Tiles are a power of two of

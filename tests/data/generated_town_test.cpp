@@ -70,6 +70,27 @@ TEST(GeneratedTown, NoBuildingStandsInAnother) {
     }
 }
 
+TEST(GeneratedTown, StreetsPassBetweenTheHouses) {
+    const std::vector<TownStreet> streets = generate_streets({});
+    const std::vector<TownBuilding> town = generate_town({});
+    EXPECT_GT(streets.size(), 200u);
+    const double half_width_m = TownOptions{}.street_width_m / 2.0;
+    double closest_m = 1e9;
+    for (const TownStreet& street : streets) {
+        const glm::dvec2 way = street.to - street.from;
+        EXPECT_NEAR(glm::length(way), 87.0, 25.0);
+        for (const TownBuilding& building : town) {
+            for (const glm::dvec2& corner : building.rings[0]) {
+                const glm::dvec2 out = corner - street.from;
+                const double part = std::clamp(glm::dot(out, way) / glm::dot(way, way), 0.0, 1.0);
+                closest_m = std::min(closest_m, glm::length(out - part * way));
+            }
+        }
+    }
+    EXPECT_GT(closest_m, 0.85 * half_width_m);  // blocks are not quite rectangles
+    EXPECT_LT(closest_m, 1.1 * half_width_m);
+}
+
 TEST(GeneratedTown, FollowsItsSeed) {
     const auto corner = [](uint64_t seed) { return generate_town({.seed = seed})[40].rings[0][0]; };
     EXPECT_EQ(corner(1), corner(1));

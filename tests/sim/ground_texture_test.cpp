@@ -7,6 +7,7 @@
 
 #include "lod/base/rng.h"
 #include "sim/relief.h"
+#include "sim/street_cover.h"
 #include "sim/sunlight.h"
 
 namespace {
@@ -133,6 +134,57 @@ TEST(GroundTexture, ImageryCoversWhereItIsOpaque) {
     EXPECT_NEAR(covered.red, 200.0, 6.0);  // level ground keeps the photograph's own light
     EXPECT_NEAR(covered.green, 0.0, 2.0);
     EXPECT_GT(bare.green, 40.0);
+}
+
+/// A street along a row of the grid, in its own plane coordinates.
+data::Street street_along(const data::HeightGrid& grid, double row, double width_m) {
+    const auto site = [&](double col) {
+        const data::SitePoint at = grid.frame.site_from_grid(col, row);
+        return glm::dvec2(at.x, at.y);
+    };
+    return {{site(10.0), site(50.0)}, width_m};
+}
+
+TEST(StreetCover, IsTheShareOfEachTexel) {
+    const auto flat = make_grid(64, 64, [](int, int) { return 100.0; });
+    const std::vector<data::Street> streets{street_along(flat, 20.0, 12.0)};
+    const sim::StreetCover same =
+        sim::cover_streets(streets, flat, {64, 64});  // texels of 30 m on the samples
+    EXPECT_NEAR(same.at(30, 20), 12.0 / 30.0, 0.003);
+    EXPECT_EQ(same.at(30, 19), 0.0f);
+    EXPECT_EQ(same.at(30, 21), 0.0f);
+    EXPECT_EQ(same.at(5, 20), 0.0f);
+    const sim::StreetCover fine = sim::cover_streets(streets, flat, {640, 640});  // 3 m; middle at 204.5
+    double sum = 0.0;
+    for (int y = 195; y < 215; ++y)
+        sum += double{fine.at(300, y)};
+    EXPECT_NEAR(sum, 12.0 / 3.0, 0.02) << "nothing is lost";
+    EXPECT_EQ(fine.at(300, 204), 1.0f);
+    EXPECT_EQ(fine.at(300, 205), 1.0f);
+    EXPECT_EQ(fine.at(300, 198), 0.0f);
+}
+
+TEST(StreetCover, WhatLeavesTheGridIsCut) {
+    const auto flat = make_grid(8, 8, [](int, int) { return 100.0; });
+    const std::vector<data::Street> streets{{{{-1e6, -1e6}, {1e6, 1e6}}, 9.0},
+                                            {{{1e7, 0.0}, {1e7, 5.0}}, 9.0}};
+    const sim::StreetCover cover = sim::cover_streets(streets, flat, {32, 32});
+    EXPECT_LE(cover.size.x, 32);
+    EXPECT_EQ(sim::cover_streets({}, flat, {32, 32}).size.x, 0);
+}
+
+TEST(GroundTexture, StreetsAreGreyAndHaveLittleFineStructure) {
+    const auto flat = make_grid(64, 64, [](int, int) { return 100.0; });
+    const std::vector<data::Street> streets{street_along(flat, 20.0, 90.0)};
+    sim::GroundTextureOptions options{64, 8192, 1};
+    options.streets = streets;
+    const data::Image image = sim::paint_ground(flat, {}, options);
+    const auto texel = [&](size_t x, size_t y) { return &image.rgba[(y * 64 + x) * 4]; };
+    const uint8_t* street = texel(30, 20);
+    EXPECT_NEAR(street[0], street[1], 12);
+    EXPECT_NEAR(street[1], street[2], 12);
+    EXPECT_LT(street[3], 128);
+    EXPECT_EQ(texel(30, 40)[3], 255);
 }
 
 TEST(GroundTexture, OneSampleIsEnough) {
