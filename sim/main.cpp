@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "sim/command_build.h"
+#include "sim/command_compare.h"
 #include "sim/command_demo.h"
 #include "sim/command_fly.h"
 #include "sim/command_query.h"
@@ -39,6 +40,7 @@ int main(int count, char** words) {
     sim::ExtractArguments extract;
     sim::BuildArguments build;
     sim::QueryArguments query;
+    sim::CompareArguments compare;
     CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
     CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
     CLI::App& still_app = *app.add_subcommand("still", "one picture, converged unless a budget is given");
@@ -48,12 +50,15 @@ int main(int count, char** words) {
     CLI::App& build_app =
         *terrain_app.add_subcommand("build", "a store that is drawn without being read whole");
     CLI::App& query_app = *terrain_app.add_subcommand("query", "heights of the ground and lines of sight");
+    CLI::App& compare_app =
+        *terrain_app.add_subcommand("compare", "ROAM and other methods at equal measured errors");
     sim::add_demo(demo_app, demo);
     sim::add_fly(fly_app, fly);
     sim::add_still(still_app, still);
     sim::add_extract(extract_app, extract);
     sim::add_build(build_app, build);
     sim::add_query(query_app, query);
+    sim::add_compare(compare_app, compare);
 
     const auto command = [&]() -> lod::Result<lod::Ok> {
         if (demo_app.parsed()) return sim::run_demo(demo);
@@ -61,6 +66,7 @@ int main(int count, char** words) {
         if (still_app.parsed()) return sim::run_still(still);
         if (build_app.parsed()) return sim::run_build(build);
         if (query_app.parsed()) return sim::run_query(query);
+        if (compare_app.parsed()) return sim::run_compare(compare);
         return sim::run_extract(extract);
     };
     return run(app, command, count, words);

@@ -59,12 +59,4 @@ inline std::string name_of(terrain::Rival kind) {
     return std::string(terrain::kRivals[static_cast<size_t>(kind)].name);
 }
 
-/// The ground without upright strips.
-inline std::vector<DrawnTriangle> without_skirts(const std::vector<DrawnTriangle>& triangles) {
-    std::vector<DrawnTriangle> ground;
-    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(ground),
-                 [](const DrawnTriangle& triangle) { return area_of(triangle) != 0; });
-    return ground;
-}
-
 }  // namespace terrain_test
