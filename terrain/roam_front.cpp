@@ -239,11 +239,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
-    if (is_gliding(index)) {
-        start_glide(index, false);
-    } else {
-        note_pop(index);
-    }
+    if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
         if (queue_of(parent) == Queue::kLeave) stay(parent);
@@ -346,7 +342,7 @@ lod::Step RoamFront::coarsen(double limit_px) {
         bucket == kHiddenBucket || (bucket + kClimbMargin <= limit && !is_gliding(head));
     const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, limit) : head;
     if (top == head) {
-        if (!is_gliding(head) || !leave(head)) {
+        if (!leave(head)) {
             note_pop(head);
             merge_one(head);
         }

@@ -20,19 +20,34 @@ double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place
     return worst;
 }
 
+/// Where a point lies on a segment, 0 … 1; negative when it does not. Beyond the raster's border, where vertices are
+/// clamped, a vertex need not lie in the middle of its edge, nor on it at all.
+float share_on(GridPoint point, GridPoint from, GridPoint to) {
+    const int64_t dx = to.x - from.x, dy = to.y - from.y, px = point.x - from.x, py = point.y - from.y;
+    if (dx * py != dy * px || (dx == 0 && dy == 0)) return -1.0f;
+    return static_cast<float>(dx * px + dy * py) / static_cast<float>(dx * dx + dy * dy);
+}
+
 }  // namespace
 
-void RoamFront::start_glide(DiamondIndex index, bool leaves) {
+/// Sends a vertex from its edge to its place, or back; false where it cannot go.
+bool RoamFront::start_glide(DiamondIndex index, bool leaves) {
     VertexGlide glide;
     glide.index = index;
     glide.ends = mesh_.edge_ends(index);
-    glm::vec3 middle(0.0f);
+    const Domain& domain = table_.domain;
+    glide.share =
+        share_on(domain.clamped(mesh_[index].centre()), domain.clamped(mesh_[glide.ends[0]].centre()),
+                 domain.clamped(mesh_[glide.ends[1]].centre()));
+    if (glide.share < 0.0f || glide.share > 1.0f) return false;
     for (size_t end = 0; end < 2; ++end) {
         glide.end_levels[end] = static_cast<uint8_t>(mesh_[glide.ends[end]].level);
-        middle += 0.5f * bound(glide.ends[end]).centre;
+        glide.edge_from_place_m +=
+            (end == 0 ? 1.0f - glide.share : glide.share) * bound(glide.ends[end]).centre;
     }
-    glide.edge_from_place_m = middle - bound(index).centre;
+    glide.edge_from_place_m -= bound(index).centre;
     glides_.start(glide, mesh_[index].level, leaves, now_s_);
+    return true;
 }
 
 /// A vertex in view that appears or goes without a glide, not in a cut, jumps by what its diamond may be wrong.
@@ -47,9 +62,9 @@ uint64_t RoamFront::triangles_of(DiamondIndex index) const {
                                                [](DiamondIndex parent) { return is_record(parent); }));
 }
 
-/// Sends a mergeable diamond's vertex back to its edge; false when it lies there already.
+/// Sends a mergeable diamond's vertex back to its edge; false when it must jump.
 bool RoamFront::leave(DiamondIndex index) {
-    start_glide(index, true);
+    if (!is_gliding(index) || !start_glide(index, true)) return false;
     unlink(index);
     enqueue(index, Queue::kLeave);
     leaving_triangles_ += triangles_of(index);

@@ -26,9 +26,11 @@ struct IndexWriter {
         if (state == State::kInside) return true;
         const Diamond& d = input.mesh[index];
         const DiamondBound bound = input.bound_of(d, input.ranks[index].source);
-        const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), bound.radius_m);
+        // Vertices under way may be shown outside the bound of their own.
+        const float radius_m = bound.radius_m + input.glides.farthest_m();
+        const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), radius_m);
         if (outside > 0.0f) return false;
-        if (outside < -2.0f * bound.radius_m) state = State::kInside;
+        if (outside < -2.0f * radius_m) state = State::kInside;
         return true;
     }
 

@@ -35,6 +35,12 @@ void VertexGlides::turn(VertexGlide& glide, bool leaves, double now_s) const {
     glide.start_s = now_s;
 }
 
+glm::vec3 VertexGlides::shown_edge_m(const VertexGlide& glide) const {
+    return glide.edge_from_place_m +
+           (1.0f - glide.share) * displacement_m(glide.ends[0], glide.end_levels[0]) +
+           glide.share * displacement_m(glide.ends[1], glide.end_levels[1]);
+}
+
 void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, double now_s) {
     std::vector<VertexGlide>& glides = level_of(level);
     const auto at = std::lower_bound(glides.begin(), glides.end(), glide.index, is_before);
@@ -43,9 +49,8 @@ void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, doubl
     fresh.from = leaves ? 0.0f : 1.0f;
     fresh.to = 1.0f - fresh.from;
     fresh.start_s = now_s;
-    const glm::vec3 ends = displacement_m(glide.ends[0], glide.end_levels[0]) +
-                           displacement_m(glide.ends[1], glide.end_levels[1]);
-    fresh.shown_m = fresh.before_m = fresh.from * (glide.edge_from_place_m + 0.5f * ends);
+    fresh.shown_m = fresh.before_m = fresh.from * shown_edge_m(glide);
+    farthest_m_ = std::max(farthest_m_, glm::length(fresh.shown_m));
     glides.insert(at, fresh);
     ++count_;
 }
@@ -66,17 +71,18 @@ void VertexGlides::clear() {
     for (std::vector<VertexGlide>& glides : levels_)
         glides.clear();
     count_ = 0;
+    farthest_m_ = 0.0f;
 }
 
 void VertexGlides::advance(double now_s, std::vector<DiamondIndex>& back) {
     back.clear();
+    farthest_m_ = 0.0f;
     for (std::vector<VertexGlide>& glides : levels_) {
         for (VertexGlide& glide : glides) {
             const float w = weight(glide, now_s);
-            const glm::vec3 ends = displacement_m(glide.ends[0], glide.end_levels[0]) +
-                                   displacement_m(glide.ends[1], glide.end_levels[1]);
             glide.before_m = glide.shown_m;
-            glide.shown_m = w * (glide.edge_from_place_m + 0.5f * ends);
+            glide.shown_m = w * shown_edge_m(glide);
+            farthest_m_ = std::max(farthest_m_, glm::length(glide.shown_m));
             if (glide.to == 1.0f && w == 1.0f) back.push_back(glide.index);
         }
     }

@@ -1,10 +1,11 @@
 // VertexGlides: vertices on their way between the edge they were born on and their own place.
 //
-// A split puts its new vertex on the middle of the edge it cuts and lets it glide to its place; a merge waits until
+// A split puts its new vertex on the edge it cuts and lets it glide to its place; a merge waits until
 // its vertex has glided back. The way is a smooth function of time, whatever the frame rate. An edge's ends may be
-// gliding themselves: the middle is taken where they are shown, so no frame breaks an edge.
+// gliding themselves: the edge is taken where it is shown, so no frame breaks an edge.
 //
-//     shown = place + w (middle of the ends' places - place + mean of the ends' displacements),   w: 1 -> 0 or back
+//     shown = place + w (point of the edge between its ends' places - place + the ends' displacements there)
+//     w: 1 -> 0 or back
 //
 // Source: seed paper 002, geomorphing; here in time, because a front at its budget has no view at which w is 0.
 #pragma once
@@ -23,9 +24,10 @@ struct VertexGlide {
     DiamondIndex index = kOutside;
     std::array<DiamondIndex, 2> ends{};   ///< of the edge
     std::array<uint8_t, 2> end_levels{};  ///< their levels
-    float from = 0.0f, to = 0.0f;         ///< w at the start and at the end
+    float share = 0.5f;            ///< of the second end: where on the edge; the middle inside a raster
+    float from = 0.0f, to = 0.0f;  ///< w at the start and at the end
     double start_s = 0.0;
-    glm::vec3 edge_from_place_m{0.0f};  ///< middle of the ends' own places, seen from the vertex's place
+    glm::vec3 edge_from_place_m{0.0f};  ///< that point between the ends' own places, seen from the vertex's
     glm::vec3 shown_m{0.0f};            ///< displacement now
     glm::vec3 before_m{0.0f};           ///< … and in the frame before
 };
@@ -36,6 +38,8 @@ class VertexGlides {
     explicit VertexGlides(double duration_s) : duration_s_(duration_s) {}
 
     bool is_empty() const { return count_ == 0; }
+    /// No vertex is farther from its place than this.
+    float farthest_m() const { return farthest_m_; }
     size_t count() const { return count_; }
     std::span<const VertexGlide> at_level(int level) const { return levels_[static_cast<size_t>(level)]; }
 
@@ -60,10 +64,13 @@ class VertexGlides {
     VertexGlide* find(DiamondIndex index, int level);
     float weight(const VertexGlide& glide, double now_s) const;
     void turn(VertexGlide& glide, bool leaves, double now_s) const;
+    /// Where its edge is shown, seen from the vertex's place.
+    glm::vec3 shown_edge_m(const VertexGlide& glide) const;
 
     double duration_s_;
     std::array<std::vector<VertexGlide>, 32> levels_;  ///< [level], by index: an edge's ends are coarser
     size_t count_ = 0;
+    float farthest_m_ = 0.0f;
 };
 
 }  // namespace terrain

@@ -191,7 +191,7 @@ void expect_no_cracks(const std::string& path, const Trial& trial) {
     std::printf("%d views: %llu pixels of ground, %llu of background, %llu cracks\n", trial.views,
                 static_cast<unsigned long long>(sum.covered), static_cast<unsigned long long>(sum.background),
                 static_cast<unsigned long long>(sum.cracks));
-    EXPECT_EQ(trial.glide_s > 0.0, largest_glide_px > 0.0) << "something should glide, or nothing";
+    EXPECT_GT(largest_glide_px, 0.0) << "something should move";
     EXPECT_GT(sum.covered, sum.background / 2) << "the views should see ground";
     EXPECT_GT(sum.background, sum.covered / 100) << "the background should show where there is no ground";
 }
