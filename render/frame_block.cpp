@@ -24,7 +24,8 @@ void place_ground(const Ground& ground, const glm::ivec2& sample, FrameBlock& bl
     const glm::dvec2 per_sample = ground.detail.cell_m / kGroundTile_m;
     const glm::dvec2 anchor(sample), phase = glm::fract(anchor * per_sample);
     const glm::dvec2 grid(ground.grid_width, ground.grid_height);
-    const glm::dvec2 scale = 1.0 / (per_sample * grid), offset = (anchor + 0.5) / grid - phase * scale;
+    const glm::dvec2 scale = 1.0 / (per_sample * grid),
+                     offset = (anchor + ground.lead) / grid - phase * scale;
     block.ground_tiles = vec4_of({per_sample, anchor.x}, anchor.y);
     block.ground_phase = vec4_of({phase, 0.0}, 0.0);
     block.ground_grid = vec4_of({scale, offset.x}, offset.y);

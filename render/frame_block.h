@@ -30,6 +30,7 @@ static_assert(sizeof(FrameBlock) == 128 && offsetof(FrameBlock, sun_eye) == 32 &
 /// How ground texture and pattern lie on the samples.
 struct Ground {
     int grid_width = 1, grid_height = 1;  ///< samples the texture spans
+    double lead = 0.5;                    ///< of them before the first
     SurfaceDetail detail;
 };
 

@@ -116,13 +116,14 @@ std::string Renderer::device() const {
 }
 
 lod::Result<lod::Ok> Renderer::set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
-                                                  int grid_width, int grid_height) {
+                                                  int grid_width, int grid_height, double lead) {
     CHECK(grid_width > 0 && grid_height > 0);
     auto texture = make_ground_texture(width, height, rgba, is_software_rasteriser(device_name()));
     if (!texture) return texture.error();
     state_->textures.ground = std::move(*texture);
     state_->ground.grid_width = grid_width;
     state_->ground.grid_height = grid_height;
+    state_->ground.lead = lead;
     ++state_->allocations_since_draw;
     return lod::Ok{};
 }

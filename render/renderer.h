@@ -89,9 +89,10 @@ class Renderer {
 
     /// Colour of the ground, row-major from the north-west; mipmapped. Alpha says how much of its fine structure
     /// shows (set_detail). Texel centres sit on samples when the
-    /// image has the grid's size; `grid_width/height` say how many samples the image spans.
+    /// image has the grid's size; `grid_width/height` say how many samples the image spans, `lead` how
+    /// many of them before the first.
     lod::Result<lod::Ok> set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
-                                            int grid_width, int grid_height);
+                                            int grid_width, int grid_height, double lead = 0.5);
 
     /// From now on ground, roofs and walls show structure finer than their colours: grass, roofing, windows. It
     /// melts into its mean where it is smaller than a pixel. Cost: about 0.2 s, once.

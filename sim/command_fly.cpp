@@ -130,6 +130,7 @@ lod::Result<lod::Ok> run_fly(const FlyArguments& arguments) {
     building.threads = arguments.threads;
     building.reserve_triangles = reserve_for(options);
     building.trajectory = arguments.trajectory;
+    building.waits_for_pages = arguments.operations.has_value();
     auto world = build_world(*scene, building);
     if (!world) return world.error();
     options.begin_s = arguments.time_s.value_or(scene->start.time_s.value_or(scene->time.begin_s));

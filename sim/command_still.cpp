@@ -122,6 +122,7 @@ lod::Result<lod::Ok> run_still(const StillArguments& arguments) {
     building.tolerance_px = arguments.tolerance_px;
     building.threads = arguments.threads;
     building.has_picture = !arguments.image.empty();
+    building.waits_for_pages = true;
     auto world = build_world(*scene, building);
     if (!world) return world.error();
 

@@ -43,6 +43,7 @@ TerrainSource read_terrain(const toml::value& value, Reading& reading) {
     size_t policy = 0;
     table.take_word("voids", {"fill", "hole"}, policy);
     terrain.voids = policy == 0 ? data::VoidPolicy::kFill : data::VoidPolicy::kHole;
+    table.take("memory_mb", terrain.memory_mb, {8.0, 1e6});
     table.finish();
     for (std::string& path : terrain.sources)
         path = reading.resolve(path);

@@ -19,7 +19,8 @@ namespace sim {
 struct TerrainSource {
     std::vector<std::string> sources;  ///< at least one
     std::vector<std::string> imagery;
-    data::VoidPolicy voids = data::VoidPolicy::kFill;
+    data::VoidPolicy voids = data::VoidPolicy::kFill;  ///< a terrain store has its own
+    double memory_mb = 512.0;                          ///< for the pages of a terrain store, at most
 };
 
 /// [[buildings]]

@@ -74,7 +74,7 @@ render::Atmosphere atmosphere_of(const World& world, const Shot& shot, const glm
     if (world.ground) {
         const glm::dvec2 below = world.ground->frame.grid_from_site(shot.state.site);
         const glm::dvec2 last(world.ground->width - 1, world.ground->height - 1);
-        air.ground_sample = glm::ivec2(glm::clamp(below, glm::dvec2(0.0), last));
+        air.ground_sample = glm::ivec2(glm::clamp(below, glm::dvec2(0.0), last)) * world.ground_stride;
     }
     return air;
 }
@@ -153,10 +153,12 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
     const data::Image& colours = stage.world->ground_colours;
     if (colours.width > 0) {
         const data::HeightGrid& ground = *stage.world->ground;
-        auto set = stage.renderer.set_ground_texture(colours.width, colours.height, colours.rgba,
-                                                     ground.width, ground.height);
+        const int stride = stage.world->ground_stride;
+        auto set =
+            stage.renderer.set_ground_texture(colours.width, colours.height, colours.rgba,
+                                              ground.width * stride, ground.height * stride, 0.5 * stride);
         if (!set) return set.error();
-        stage.renderer.set_detail({ground.frame.cell_m(), kSunEnu});
+        stage.renderer.set_detail({ground.frame.cell_m() / double(stride), kSunEnu});
     }
     return stage;
 }

@@ -14,6 +14,7 @@
 #include "objects/buildings.h"
 #include "sim/ground_texture.h"
 #include "sim/model_parts.h"
+#include "sim/paged_terrain.h"
 #include "sim/progress.h"
 #include "sim/sunlight.h"
 #include "terrain/roam_front.h"
@@ -25,8 +26,29 @@ constexpr int kMaxTexture_px = 8192;
 /// Vertices take this long to their place: at 2 px of error and 30 Hz a step of a quarter pixel.
 constexpr double kGlide_s = 0.4;
 
+terrain::RoamOptions roam_options(const WorldOptions& options) {
+    terrain::RoamOptions roam;
+    roam.tolerance_px = options.tolerance_px;
+    roam.threads = options.threads;
+    roam.glide_s = kGlide_s;
+    // What glides back is drawn beyond the budget.
+    roam.reserve_triangles = options.reserve_triangles * 5 / 4;
+    return roam;
+}
+
+lod::Result<lod::Ok> build_paged_terrain(World& world, const WorldOptions& options) {
+    auto paged = open_paged_terrain(*world.scene.terrain, roam_options(options), options.waits_for_pages);
+    if (!paged) return paged.error();
+    world.ground = std::make_unique<data::HeightGrid>(std::move(paged->ground.grid));
+    world.ground_stride = paged->ground.stride;
+    world.frame = world.ground->frame.world();
+    world.terrain = std::move(paged->front);
+    return lod::Ok{};
+}
+
 lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
     const TerrainSource& source = *world.scene.terrain;
+    if (names_store(source)) return build_paged_terrain(world, options);
     const Stopwatch watch;
     data::HeightGridOptions reading;
     reading.voids = source.voids;
@@ -37,14 +59,10 @@ lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
     const double reading_s = watch.seconds();
 
     const Stopwatch errors;
-    terrain::RoamOptions roam;
-    roam.tolerance_px = options.tolerance_px;
-    roam.threads = options.threads;
-    roam.glide_s = kGlide_s;
+    terrain::RoamOptions roam = roam_options(options);
     const auto side =
         std::bit_ceil(static_cast<uint64_t>(std::max(world.ground->width, world.ground->height)));
-    // It never has more than the raster, and what glides back is drawn beyond the budget.
-    roam.reserve_triangles = std::min(options.reserve_triangles * 5 / 4, 2 * side * side);
+    roam.reserve_triangles = std::min(roam.reserve_triangles, 2 * side * side);  // it never has more
     world.terrain = terrain::make_roam_front(*world.ground, roam);
     const data::HeightGrid& ground = *world.ground;
     const auto voids = std::count(ground.is_void.begin(), ground.is_void.end(), uint8_t{1});

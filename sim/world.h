@@ -24,6 +24,7 @@ struct WorldOptions {
     unsigned threads = 2;  ///< for the error computation and the ground's colours; changes no result
     uint64_t reserve_triangles = 0;  ///< the terrain front allocates nothing below this many
     bool has_picture = true;         ///< false: nobody looks, the ground is not painted
+    bool waits_for_pages = false;    ///< a paged terrain is drawn with all it wants, whatever that takes
     std::string trajectory;          ///< replaces the scene's path; empty: none
 };
 
@@ -39,6 +40,8 @@ struct World {
     Scene scene;
     data::WorldFrame frame;
     std::unique_ptr<data::HeightGrid> ground;  ///< null without [terrain], as all below
+    int ground_stride =
+        1;  ///< the drawn terrain has this many samples to one of `ground`'s (paged_terrain.h)
     std::unique_ptr<lod::Front> terrain;
     std::unique_ptr<lod::RigidFront> objects;
     std::unique_ptr<lod::RigidFront> instruments;

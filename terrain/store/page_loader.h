@@ -68,6 +68,8 @@ class PageLoader {
 
     PageTally tally() const;
     const StoreFile& store() const { return store_; }
+    /// Pages that always stay.
+    size_t pinned_count() const { return plan_.pinned_count(); }
     /// Bytes of slots and bookkeeping; never above options.memory_bytes.
     uint64_t memory_bytes() const { return memory_bytes_; }
 

@@ -94,6 +94,12 @@ std::string pack_header(const StoreHeader& header) {
     return bytes;
 }
 
+bool is_store(const std::string& path) {
+    const FileHandle file = FileHandle::for_reading(path);
+    std::array<char, 8> name{};
+    return file.is_open() && file.read_at(0, name.data(), name.size()) && name == kName;
+}
+
 lod::Result<StoreHeader> read_header(const FileHandle& file, const std::string& path) {
     const std::string where = "terrain store '" + path + "' ";
     Preamble preamble;

@@ -50,6 +50,9 @@ struct StoreHeader {
 /// The header's bytes, size_bytes() of them.
 std::string pack_header(const StoreHeader& header);
 
+/// Whether a file begins as a terrain store does, of whatever version.
+bool is_store(const std::string& path);
+
 /// Reads and checks a header and the file's length. @param path  for messages
 /// Fails with one line on anything but a whole store of this version.
 lod::Result<StoreHeader> read_header(const FileHandle& file, const std::string& path);

@@ -3,7 +3,7 @@
 // of adaptation, what was not there in time, holes (none are allowed), and the resident memory.
 //
 // `alone` leaves the table in memory out: then the process's memory is the paged terrain's.
-#include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -54,13 +54,36 @@ class Path {
     double radius_m_, height_m_;
 };
 
-double adapt_us(terrain::RoamFront& front, const lod::View& view, double time_s) {
+/// Time of this thread on a processor: what others do on a shared machine is left out.
+double busy_us() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) * 1e6 + double(now.tv_nsec) * 1e-3;
+}
+
+/// Times of each frame's adaptation, microseconds.
+struct Times {
+    std::vector<double> wall_us, busy_us;
+};
+
+struct Spent {
+    double wall_us = 0.0, busy_us = 0.0;
+
+    void add_to(Times& times) const {
+        times.wall_us.push_back(wall_us);
+        times.busy_us.push_back(busy_us);
+    }
+};
+
+Spent adapt(terrain::RoamFront& front, const lod::View& view, double time_s) {
     const auto begin = Clock::now();
+    const double busy_before_us = busy_us();
     lod::Front* fronts[] = {&front};
     front.begin_frame({&view, 1}, time_s);
     lod::schedule(fronts, {.tolerance_px = kTolerance_px, .max_triangles = kMaxTriangles},
                   lod::operation_limit(20'000));
-    return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+    return {std::chrono::duration<double, std::micro>(Clock::now() - begin).count(),
+            busy_us() - busy_before_us};
 }
 
 /// Whether all of the raster is covered by a conforming mesh.
@@ -92,14 +115,19 @@ double resident_mb() {
 }
 
 nlohmann::json quantiles(std::vector<double> us) {
-    if (us.empty()) return nullptr;
     std::sort(us.begin(), us.end());
     const auto at = [&](double share) { return us[static_cast<size_t>(share * double(us.size() - 1))]; };
     return {{"p50_us", at(0.5)}, {"p99_us", at(0.99)}, {"p999_us", at(0.999)}, {"max_us", us.back()}};
 }
 
+nlohmann::json quantiles(const Times& times) {
+    if (times.wall_us.empty()) return nullptr;
+    return {{"wall", quantiles(times.wall_us)}, {"busy", quantiles(times.busy_us)}};
+}
+
 struct Flight {
-    std::vector<double> paged_us, whole_us, resident_mb;
+    Times paged, whole;
+    std::vector<double> resident_mb;
     int frames = 0, late = 0, holes = 0, checks = 0;
     double worst_late_px = 0.0;
     uint64_t most_triangles = 0;
@@ -113,14 +141,14 @@ Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames) {
         const double time_s = frame / kRate_hz;
         const lod::View view = path.view_at(time_s);
         // In turn, so that neither always finds the caches as the other left them.
-        double whole_us = 0.0;
-        if (whole != nullptr && frame % 2 == 0) whole_us = adapt_us(*whole, view, time_s);
-        const double paged_us = adapt_us(paged, view, time_s);
-        if (whole != nullptr && frame % 2 == 1) whole_us = adapt_us(*whole, view, time_s);
+        Spent whole_spent;
+        if (whole != nullptr && frame % 2 == 0) whole_spent = adapt(*whole, view, time_s);
+        const Spent paged_spent = adapt(paged, view, time_s);
+        if (whole != nullptr && frame % 2 == 1) whole_spent = adapt(*whole, view, time_s);
         ++flight.frames;
         if (frame >= kWarmFrames) {
-            flight.paged_us.push_back(paged_us);
-            if (whole != nullptr) flight.whole_us.push_back(whole_us);
+            paged_spent.add_to(flight.paged);
+            if (whole != nullptr) whole_spent.add_to(flight.whole);
             const double reached_px = whole != nullptr ? whole->error_px() : kTolerance_px;
             if (paged.error_px() > std::max(reached_px, kTolerance_px) * 1.001) ++flight.late;
             flight.worst_late_px = std::max(flight.worst_late_px, paged.error_px());
@@ -140,10 +168,11 @@ Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames) {
 
 nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
     const terrain::PageTally tally = loader.tally();
-    const auto [least, most] = std::minmax_element(flight.resident_mb.begin() + 1, flight.resident_mb.end());
+    const auto [least, most] = std::minmax_element(
+        flight.resident_mb.begin() + (flight.resident_mb.size() > 1 ? 1 : 0), flight.resident_mb.end());
     return {{"frames", flight.frames},
-            {"paged", quantiles(flight.paged_us)},
-            {"whole", quantiles(flight.whole_us)},
+            {"paged", quantiles(flight.paged)},
+            {"whole", quantiles(flight.whole)},
             {"frames_coarser", flight.late},
             {"worst_error_px", flight.worst_late_px},
             {"triangles", flight.most_triangles},
