@@ -23,8 +23,9 @@ namespace sim {
 namespace {
 
 constexpr int kMaxTexture_px = 8192;
-/// Vertices take this long to their place: at 2 px of error and 30 Hz a step of a quarter pixel.
-constexpr double kGlide_s = 0.4;
+/// Vertices take this long to their place: sooner, and a near place that comes into view would move by more than
+/// half a pixel a frame (tests/sim/popping_test.cpp).
+constexpr double kGlide_s = 0.6;
 
 terrain::RoamOptions roam_options(const WorldOptions& options) {
     terrain::RoamOptions roam;

@@ -116,6 +116,7 @@ class RoamFront final : public lod::Front {
     bool is_gliding(DiamondIndex index) const {
         return options_.glide_s > 0.0 && !is_cut_ && bucket_of(index) > kFlatBucket;
     }
+    bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
     void note_pop(DiamondIndex index);
     uint64_t triangles_of(DiamondIndex index) const;

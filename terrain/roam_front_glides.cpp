@@ -20,32 +20,53 @@ double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place
     return worst;
 }
 
-/// Where a point lies on a segment, 0 … 1; negative when it does not. Beyond the raster's border, where vertices are
-/// clamped, a vertex need not lie in the middle of its edge, nor on it at all.
-float share_on(GridPoint point, GridPoint from, GridPoint to) {
-    const int64_t dx = to.x - from.x, dy = to.y - from.y, px = point.x - from.x, py = point.y - from.y;
-    if (dx * py != dy * px || (dx == 0 && dy == 0)) return -1.0f;
-    return static_cast<float>(dx * px + dy * py) / static_cast<float>(dx * dx + dy * dy);
+double cross(GridPoint from, GridPoint a, GridPoint b) {
+    return double(a.x - from.x) * double(b.y - from.y) - double(b.x - from.x) * double(a.y - from.y);
+}
+
+/// Shares of a triangle's corners in a point; false when it lies outside, or the triangle is none.
+bool shares_in(GridPoint point, const std::array<GridPoint, 3>& corners, std::array<float, 3>& shares) {
+    const double area = cross(corners[0], corners[1], corners[2]);
+    if (area == 0.0) return false;
+    for (size_t i = 0; i < 3; ++i) {
+        const double share = cross(point, corners[(i + 1) % 3], corners[(i + 2) % 3]) / area;
+        if (share < 0.0) return false;
+        shares[i] = static_cast<float>(share);
+    }
+    return true;
 }
 
 }  // namespace
 
-/// Sends a vertex from its edge to its place, or back; false where it cannot go.
+/// Where a vertex lies on the mesh without it: in the middle of its edge. At a border, where vertices are clamped, it
+/// may be off its edge, inside one of the two triangles. False where it is in neither.
+bool RoamFront::find_base(DiamondIndex index, GlideBase& base) const {
+    const Domain& domain = table_.domain;
+    const std::array<DiamondIndex, 2> edge = mesh_.edge_ends(index);
+    const auto place = [&](DiamondIndex of) { return domain.clamped(mesh_[of].centre()); };
+    const GridPoint at = place(index), from = place(edge[0]), to = place(edge[1]);
+    base.ends = {edge[0], edge[1], edge[0]};
+    base.shares = {0.5f, 0.5f, 0.0f};
+    bool is_found = from.x + to.x == 2 * at.x && from.y + to.y == 2 * at.y;
+    for (uint32_t which = 0; which < 2 && !is_found; ++which) {
+        const DiamondIndex apex = mesh_[index].parent[which];
+        if (!is_record(apex)) continue;
+        base.ends[2] = apex;
+        is_found = shares_in(at, {from, to, place(apex)}, base.shares);
+    }
+    for (size_t end = 0; end < 3; ++end)
+        base.levels[end] = static_cast<uint8_t>(mesh_[base.ends[end]].level);
+    return is_found;
+}
+
+/// Sends a vertex from where it was born to its place, or back; false where it cannot go.
 bool RoamFront::start_glide(DiamondIndex index, bool leaves) {
     VertexGlide glide;
     glide.index = index;
-    glide.ends = mesh_.edge_ends(index);
-    const Domain& domain = table_.domain;
-    glide.share =
-        share_on(domain.clamped(mesh_[index].centre()), domain.clamped(mesh_[glide.ends[0]].centre()),
-                 domain.clamped(mesh_[glide.ends[1]].centre()));
-    if (glide.share < 0.0f || glide.share > 1.0f) return false;
-    for (size_t end = 0; end < 2; ++end) {
-        glide.end_levels[end] = static_cast<uint8_t>(mesh_[glide.ends[end]].level);
-        glide.edge_from_place_m +=
-            (end == 0 ? 1.0f - glide.share : glide.share) * bound(glide.ends[end]).centre;
-    }
-    glide.edge_from_place_m -= bound(index).centre;
+    if (!find_base(index, glide.base)) return false;
+    for (size_t end = 0; end < 3; ++end)
+        glide.base_from_place_m += glide.base.shares[end] * bound(glide.base.ends[end]).centre;
+    glide.base_from_place_m -= bound(index).centre;
     glides_.start(glide, mesh_[index].level, leaves, now_s_);
     return true;
 }

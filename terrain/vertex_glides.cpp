@@ -35,10 +35,14 @@ void VertexGlides::turn(VertexGlide& glide, bool leaves, double now_s) const {
     glide.start_s = now_s;
 }
 
-glm::vec3 VertexGlides::shown_edge_m(const VertexGlide& glide) const {
-    return glide.edge_from_place_m +
-           (1.0f - glide.share) * displacement_m(glide.ends[0], glide.end_levels[0]) +
-           glide.share * displacement_m(glide.ends[1], glide.end_levels[1]);
+glm::vec3 VertexGlides::shown_base_m(const VertexGlide& glide) const {
+    glm::vec3 shown = glide.base_from_place_m;
+    const GlideBase& base = glide.base;
+    for (size_t end = 0; end < 3; ++end) {
+        if (base.shares[end] > 0.0f)
+            shown += base.shares[end] * displacement_m(base.ends[end], base.levels[end]);
+    }
+    return shown;
 }
 
 void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, double now_s) {
@@ -49,7 +53,7 @@ void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, doubl
     fresh.from = leaves ? 0.0f : 1.0f;
     fresh.to = 1.0f - fresh.from;
     fresh.start_s = now_s;
-    fresh.shown_m = fresh.before_m = fresh.from * shown_edge_m(glide);
+    fresh.shown_m = fresh.before_m = fresh.from * shown_base_m(glide);
     farthest_m_ = std::max(farthest_m_, glm::length(fresh.shown_m));
     glides.insert(at, fresh);
     ++count_;
@@ -81,7 +85,7 @@ void VertexGlides::advance(double now_s, std::vector<DiamondIndex>& back) {
         for (VertexGlide& glide : glides) {
             const float w = weight(glide, now_s);
             glide.before_m = glide.shown_m;
-            glide.shown_m = w * shown_edge_m(glide);
+            glide.shown_m = w * shown_base_m(glide);
             farthest_m_ = std::max(farthest_m_, glm::length(glide.shown_m));
             if (glide.to == 1.0f && w == 1.0f) back.push_back(glide.index);
         }

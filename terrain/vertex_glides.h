@@ -19,15 +19,21 @@
 
 namespace terrain {
 
+/// A place on the mesh as it is without a vertex: between the two ends of the edge it would cut or, where a border
+/// clamps vertices off their edges, among three corners of a triangle. Unused ends have share 0.
+struct GlideBase {
+    std::array<DiamondIndex, 3> ends{};
+    std::array<uint8_t, 3> levels{};  ///< of the ends
+    std::array<float, 3> shares{};    ///< of the ends, summing to 1
+};
+
 /// One vertex under way.
 struct VertexGlide {
     DiamondIndex index = kOutside;
-    std::array<DiamondIndex, 2> ends{};   ///< of the edge
-    std::array<uint8_t, 2> end_levels{};  ///< their levels
-    float share = 0.5f;            ///< of the second end: where on the edge; the middle inside a raster
+    GlideBase base;
     float from = 0.0f, to = 0.0f;  ///< w at the start and at the end
     double start_s = 0.0;
-    glm::vec3 edge_from_place_m{0.0f};  ///< that point between the ends' own places, seen from the vertex's
+    glm::vec3 base_from_place_m{0.0f};  ///< the base where its ends' own places are, seen from the vertex's
     glm::vec3 shown_m{0.0f};            ///< displacement now
     glm::vec3 before_m{0.0f};           ///< … and in the frame before
 };
@@ -64,8 +70,8 @@ class VertexGlides {
     VertexGlide* find(DiamondIndex index, int level);
     float weight(const VertexGlide& glide, double now_s) const;
     void turn(VertexGlide& glide, bool leaves, double now_s) const;
-    /// Where its edge is shown, seen from the vertex's place.
-    glm::vec3 shown_edge_m(const VertexGlide& glide) const;
+    /// Where its base is shown, seen from the vertex's place.
+    glm::vec3 shown_base_m(const VertexGlide& glide) const;
 
     double duration_s_;
     std::array<std::vector<VertexGlide>, 32> levels_;  ///< [level], by index: an edge's ends are coarser

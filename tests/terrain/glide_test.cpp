@@ -160,13 +160,14 @@ TEST(Glide, StarvedAndJerkyFlightStaysValid) {
 TEST(Glide, DoesNotDependOnTheFrameRate) {
     terrain::VertexGlides seldom(0.5), often(0.5);
     terrain::VertexGlide glide;
-    glide.edge_from_place_m = {0.0f, 0.0f, 8.0f};
+    glide.base_from_place_m = {0.0f, 0.0f, 8.0f};
     std::vector<terrain::DiamondIndex> back;
     for (terrain::VertexGlides* glides : {&seldom, &often}) {
         for (terrain::DiamondIndex index : {10u, 11u}) {
             glide.index = index;
-            glide.ends = index == 10 ? std::array{0u, 1u} : std::array{10u, 1u};
-            glide.end_levels = {static_cast<uint8_t>(index == 10 ? 0 : 4), 0};
+            glide.base.ends = {index == 10 ? 0u : 10u, 1u, 1u};
+            glide.base.levels = {static_cast<uint8_t>(index == 10 ? 0 : 4), 0, 0};
+            glide.base.shares = {0.5f, 0.5f, 0.0f};
             glides->start(glide, index == 10 ? 4 : 6, false, 1.0);
         }
     }
