@@ -1,5 +1,9 @@
 #include "terrain/store/page_loader.h"
 
+#include <pthread.h>
+#include <sched.h>
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +31,14 @@ bool is_alike(const MovingEye& a, const MovingEye& b, double moved_m) {
            a.view.height_px == b.view.height_px && turned < kTurned &&
            glm::distance(a.view.eye_world, b.view.eye_world) < moved_m &&
            glm::distance(a.velocity_mps, b.velocity_mps) <= 0.1 * speed;
+}
+
+/// The calling thread yields to the frame's: waking it never takes a processor from who woke it. Where the system
+/// knows no such thing nothing is lost but that.
+void step_back() {
+    const sched_param none{};
+    static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_BATCH, &none));
+    static_cast<void>(setpriority(PRIO_PROCESS, 0, 5));  // of this thread alone, on Linux
 }
 
 }  // namespace
@@ -131,6 +143,7 @@ PageTally PageLoader::tally() const {
 }
 
 void PageLoader::run() {
+    if (!options_.waits) step_back();
     bool is_busy = false;
     while (take_mail(!is_busy)) {
         for (size_t page : gone_)

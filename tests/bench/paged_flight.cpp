@@ -1,4 +1,4 @@
-// paged_flight STORE SECONDS CAP_MB [alone]: a flight at 300 m/s over a paged terrain at 60 frames a second of real
+// paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone]: a flight at 300 m/s over a paged terrain at 60 frames a second of real
 // time, beside the same flight over the same table in memory, frame by frame. Prints one JSON object: the times
 // of adaptation, what was not there in time, holes (none are allowed), and the resident memory.
 //
@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSpeed_mps = 300.0, kRate_hz = 60.0, kTolerance_px = 1.0;
+constexpr double kSpeed_mps = 300.0, kRate_hz = 60.0;
 constexpr uint64_t kMaxTriangles = 400'000;
 constexpr int kWarmFrames = 120, kFramesPerCheck = 600;
 
@@ -75,12 +75,12 @@ struct Spent {
     }
 };
 
-Spent adapt(terrain::RoamFront& front, const lod::View& view, double time_s) {
+Spent adapt(terrain::RoamFront& front, const lod::View& view, double time_s, double tolerance_px) {
     const auto begin = Clock::now();
     const double busy_before_us = busy_us();
     lod::Front* fronts[] = {&front};
     front.begin_frame({&view, 1}, time_s);
-    lod::schedule(fronts, {.tolerance_px = kTolerance_px, .max_triangles = kMaxTriangles},
+    lod::schedule(fronts, {.tolerance_px = tolerance_px, .max_triangles = kMaxTriangles},
                   lod::operation_limit(20'000));
     return {std::chrono::duration<double, std::micro>(Clock::now() - begin).count(),
             busy_us() - busy_before_us};
@@ -133,7 +133,7 @@ struct Flight {
     uint64_t most_triangles = 0;
 };
 
-Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames) {
+Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames, double tolerance_px) {
     const Path path(paged.table());
     Flight flight;
     auto next_frame = Clock::now();
@@ -142,15 +142,15 @@ Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames) {
         const lod::View view = path.view_at(time_s);
         // In turn, so that neither always finds the caches as the other left them.
         Spent whole_spent;
-        if (whole != nullptr && frame % 2 == 0) whole_spent = adapt(*whole, view, time_s);
-        const Spent paged_spent = adapt(paged, view, time_s);
-        if (whole != nullptr && frame % 2 == 1) whole_spent = adapt(*whole, view, time_s);
+        if (whole != nullptr && frame % 2 == 0) whole_spent = adapt(*whole, view, time_s, tolerance_px);
+        const Spent paged_spent = adapt(paged, view, time_s, tolerance_px);
+        if (whole != nullptr && frame % 2 == 1) whole_spent = adapt(*whole, view, time_s, tolerance_px);
         ++flight.frames;
         if (frame >= kWarmFrames) {
             paged_spent.add_to(flight.paged);
             if (whole != nullptr) whole_spent.add_to(flight.whole);
-            const double reached_px = whole != nullptr ? whole->error_px() : kTolerance_px;
-            if (paged.error_px() > std::max(reached_px, kTolerance_px) * 1.001) ++flight.late;
+            const double reached_px = whole != nullptr ? whole->error_px() : tolerance_px;
+            if (paged.error_px() > std::max(reached_px, tolerance_px) * 1.001) ++flight.late;
             flight.worst_late_px = std::max(flight.worst_late_px, paged.error_px());
         }
         flight.most_triangles = std::max(flight.most_triangles, paged.triangles());
@@ -168,8 +168,8 @@ Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames) {
 
 nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
     const terrain::PageTally tally = loader.tally();
-    const auto [least, most] = std::minmax_element(
-        flight.resident_mb.begin() + (flight.resident_mb.size() > 1 ? 1 : 0), flight.resident_mb.end());
+    const auto middle = flight.resident_mb.begin() + static_cast<ptrdiff_t>(flight.resident_mb.size() / 2);
+    const auto [least, most] = std::minmax_element(middle, flight.resident_mb.end());
     return {{"frames", flight.frames},
             {"paged", quantiles(flight.paged)},
             {"whole", quantiles(flight.whole)},
@@ -178,7 +178,7 @@ nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
             {"triangles", flight.most_triangles},
             {"checks", flight.checks},
             {"holes", flight.holes},
-            {"resident_mb", {{"least", *least}, {"most", *most}}},
+            {"resident_mb_second_half", {{"least", *least}, {"most", *most}}},
             {"loader_mb", double(loader.memory_bytes()) / (1 << 20)},
             {"pages",
              {{"here", tally.here},
@@ -190,8 +190,8 @@ nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
 }  // namespace
 
 int main(int count, char** words) {
-    if (count < 4) {
-        std::fprintf(stderr, "paged_flight STORE SECONDS CAP_MB [alone]\n");
+    if (count < 5) {
+        std::fprintf(stderr, "paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone]\n");
         return 2;
     }
     const auto fail = [](const std::string& message) {
@@ -200,19 +200,21 @@ int main(int count, char** words) {
     };
     auto store = terrain::StoreFile::open(words[1]);
     if (!store) return fail(store.message());
-    const terrain::RoamOptions options{.tolerance_px = kTolerance_px, .reserve_triangles = kMaxTriangles};
+    const double tolerance_px = std::atof(words[4]);
+    const terrain::RoamOptions options{.tolerance_px = tolerance_px, .reserve_triangles = kMaxTriangles};
     std::optional<terrain::RoamFront> whole;
-    if (count < 5) {
+    if (count < 6) {
         auto table = store->map_table();
         if (!table) return fail(table.message());
         whole.emplace(std::move(*table), options);
     }
-    auto opened =
-        open_paged_table(std::move(*store), {.memory_bytes = std::strtoull(words[3], nullptr, 10) << 20});
+    auto opened = open_paged_table(
+        std::move(*store),
+        {.memory_bytes = std::strtoull(words[3], nullptr, 10) << 20, .want_px = 0.5 * tolerance_px});
     if (!opened) return fail(opened.message());
     terrain::RoamFront paged(std::move(opened->table), options, std::move(opened->loader));
     const Flight flight =
-        fly(paged, whole ? &*whole : nullptr, static_cast<int>(std::atof(words[2]) * kRate_hz));
+        fly(paged, whole ? &*whole : nullptr, static_cast<int>(std::atof(words[2]) * kRate_hz), tolerance_px);
     std::printf("%s\n", report(flight, *paged.loader()).dump(1).c_str());
     return flight.holes == 0 ? 0 : 1;
 }
