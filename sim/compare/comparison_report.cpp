@@ -68,6 +68,7 @@ json json_of(const CompareRow& row) {
             {"upload_bytes", seen.upload_bytes},
             {"changed_share", seen.changed_share},
             {"popping_px", seen.popping_px},
+            {"popping_told_px", seen.told_px},
             {"acmr", seen.acmr},
             {"memory_mb", row.memory_mb},
             {"pool_mb", row.pool_mb},

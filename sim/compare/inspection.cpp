@@ -56,6 +56,7 @@ Inspection inspect(Method& method, const data::HeightGrid& grid, std::span<const
         bytes.push_back(static_cast<double>(written));
         shares.push_back(change.changed_share);
         found.popping_px = std::max(found.popping_px, change.popping_px);
+        found.told_px = std::max(found.told_px, method.front->jump_px());
     }
     found.triangles = mean(triangles);
     found.cut_triangles = mean(cut);

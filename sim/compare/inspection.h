@@ -14,6 +14,7 @@ struct Inspection {
     double upload_bytes = 0.0;   ///< mean, without the first frame
     double changed_share = 0.0;  ///< mean
     double popping_px = 0.0;     ///< largest
+    double told_px = 0.0;        ///< the largest jump the front itself tells of; 0 when it does not say
     double acmr = 0.0;           ///< vertices fetched a triangle, 16-entry first-in first-out cache, mean
 };
 

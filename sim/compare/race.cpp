@@ -10,7 +10,7 @@ namespace {
 constexpr int kWarmUpFrames = 3;
 constexpr uint32_t kCommands = 65536;
 
-/// Regions one behind the other; what is placed must be written anew.
+/// Regions one behind the other, half as large again where they may grow; what is placed must be written anew.
 lod::Result<lod::Ok> share_out(std::vector<Entrant>& entrants, std::vector<lod::PoolRegion>& regions,
                                render::Renderer& renderer) {
     render::PoolCapacity pool{0, 0, kCommands};
@@ -18,8 +18,8 @@ lod::Result<lod::Ok> share_out(std::vector<Entrant>& entrants, std::vector<lod::
     for (Entrant& entrant : entrants) {
         Method& method = *entrant.method;
         const lod::PoolRegion need = method.front->pool_need();
-        method.region = {pool.vertices, need.vertex_capacity, pool.indices,
-                         need.index_capacity + need.index_capacity / 2};
+        const uint32_t vertices = method.make ? need.vertex_capacity / 2 * 3 : need.vertex_capacity;
+        method.region = {pool.vertices, vertices, pool.indices, need.index_capacity / 2 * 3};
         method.front->place(method.region);
         pool.vertices += method.region.vertex_capacity;
         pool.indices += method.region.index_capacity;
@@ -69,8 +69,9 @@ lod::Result<lod::Ok> fly(std::vector<Entrant>& entrants, const Sorties& sorties,
         }
         if (has_outgrown) {
             if (auto shared = share_out(entrants, regions, renderer); !shared) return shared.error();
-            for (Entrant& entrant : entrants)
-                draw_frame(entrant, view, frame / kRate_hz, renderer);
+            // Twice: what was written once and for all is given back with the frame after.
+            for (size_t i = 0; i < 2 * entrants.size(); ++i)
+                draw_frame(entrants[i % entrants.size()], view, frame / kRate_hz, renderer);
         }
         if (has_outgrown || frame < 0) continue;
         for (size_t i = 0; i < entrants.size(); ++i) {
