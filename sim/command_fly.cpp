@@ -88,6 +88,13 @@ void add_fly(CLI::App& app, FlyArguments& arguments) {
         ->check(CLI::Range(0.0, 1e6))
         ->type_name("PX")
         ->capture_default_str();
+    app.add_option(
+           "--glide", arguments.glide_s,
+           "time a vertex of the terrain takes to its place, s; 0: it jumps, and the error told is the "
+           "mesh's alone")
+        ->check(CLI::Range(0.0, 60.0))
+        ->type_name("S")
+        ->capture_default_str();
     app.add_option("--ops", arguments.operations,
                    "deterministic: this many operations a frame, no clock decides")
         ->type_name("N");
@@ -127,6 +134,7 @@ lod::Result<lod::Ok> run_fly(const FlyArguments& arguments) {
     LoopOptions options = loop_options(arguments);
     WorldOptions building;
     building.tolerance_px = arguments.tolerance_px;
+    building.glide_s = arguments.glide_s;
     building.threads = arguments.threads;
     building.reserve_triangles = reserve_for(options);
     building.trajectory = arguments.trajectory;

@@ -8,6 +8,7 @@
 #include "lod/base/result.h"
 #include "sim/command_values.h"
 #include "sim/frame_loop.h"
+#include "sim/world.h"
 
 namespace sim {
 
@@ -20,6 +21,7 @@ struct FlyArguments {
     std::optional<double> time_s;
     std::optional<uint64_t> triangles;
     double tolerance_px = 1.0;
+    double glide_s = WorldOptions{}.glide_s;
     std::optional<uint64_t> operations;
     unsigned threads = 2;
     std::string report;

@@ -23,15 +23,12 @@ namespace sim {
 namespace {
 
 constexpr int kMaxTexture_px = 8192;
-/// Vertices take this long to their place: sooner, and a near place that comes into view would move by more than
-/// half a pixel a frame (tests/sim/popping_test.cpp).
-constexpr double kGlide_s = 0.6;
 
 terrain::RoamOptions roam_options(const WorldOptions& options) {
     terrain::RoamOptions roam;
     roam.tolerance_px = options.tolerance_px;
     roam.threads = options.threads;
-    roam.glide_s = kGlide_s;
+    roam.glide_s = options.glide_s;
     // What glides back is drawn beyond the budget.
     roam.reserve_triangles = options.reserve_triangles * 5 / 4;
     return roam;

@@ -21,6 +21,9 @@ namespace sim {
 
 struct WorldOptions {
     double tolerance_px = 1.0;
+    /// Vertices take this long to their place; 0: they jump. Sooner than this, and a near place that comes into
+    /// view would move by more than half a pixel a frame (tests/sim/popping_test.cpp).
+    double glide_s = 0.6;
     unsigned threads = 2;  ///< for the error computation and the ground's colours; changes no result
     uint64_t reserve_triangles = 0;  ///< the terrain front allocates nothing below this many
     bool has_picture = true;         ///< false: nobody looks, the ground is not painted
