@@ -149,7 +149,7 @@ TEST(Compare, ReportIsWholeAndRoamDrawsTheFewest) {
     const std::string report = folder.file("compare.json");
     const auto outcome = sim_test::run_program(
         folder,
-        "terrain compare --fractal 385 --relief 60 --frames 8 --size 320x180 --targets 1,4 --threads 2 "
+        "terrain compare --fractal 385 --relief 60 --frames 4 --targets 1,4 --threads 2 "
         "--report " +
             report);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -168,16 +168,18 @@ TEST(Compare, ReportIsWholeAndRoamDrawsTheFewest) {
             EXPECT_EQ(row[column].is_null(), is_pending) << column;
         }
         if (method == "vdpm") continue;
-        EXPECT_NEAR(row["measured_px"].get<double>(), row["target_px"].get<double>(),
-                    0.05 * row["target_px"].get<double>());
+        // Whole chunks come and go: their error moves in steps.
+        const double slack = method == "chunked_quadtree" ? 0.35 : 0.05;
+        const double target_px = row["target_px"];
+        EXPECT_NEAR(row["measured_px"].get<double>(), target_px, slack * target_px);
         EXPECT_LE(row["cpu_us_p50"].get<double>(), row["cpu_us_p99"].get<double>());
         EXPECT_LT(row["cpu_us_p50"].get<double>() / 1e3, row["frame_ms_p50"].get<double>());
         triangles[row["target_px"].get<double>()][method] = row["triangles"].get<double>();
     }
     for (const auto& [target_px, counts] : triangles) {
         for (const auto& [method, count] : counts) {
-            if (method.rfind("roam", 0) == 0 || method == "vipm_blocks") continue;
-            EXPECT_LE(counts.at("roam"), count) << method << " at " << target_px << " px";
+            if (method.rfind("roam", 0) == 0) continue;
+            EXPECT_LT(counts.at("roam"), count) << method << " at " << target_px << " px";
         }
     }
     ASSERT_EQ(said["requirements"].size(), 7u);
