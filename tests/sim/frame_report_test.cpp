@@ -30,6 +30,7 @@ TEST(FrameReport, HasExactlyTheContractsFields) {
     record.operations[lod::OperationKind::kEcol] = 7;
     record.triangles = {10, 20, 30};
     record.error_px = {0.5, 0.25, 0.0};
+    record.jump_px = 0.375;
     record.front_hash = 0x0123456789abcdefu;
     const sim::RunFacts facts{"a.toml", 60.0, 640, 360, "llvmpipe", 123.0};
     const std::string text = sim::to_json(facts, std::vector{record}).dump();
@@ -40,8 +41,9 @@ TEST(FrameReport, HasExactlyTheContractsFields) {
     EXPECT_EQ(report["size"], json::array({640, 360}));
     const json& frame = report["frames"].at(0);
     EXPECT_EQ(keys(frame), (std::set<std::string>{"frame", "time_s", "cpu_ms", "render_ms", "total_ms",
-                                                  "missed", "triangles", "error_px", "operations",
+                                                  "missed", "triangles", "error_px", "jump_px", "operations",
                                                   "draw_calls", "commands", "front_hash"}));
+    EXPECT_EQ(frame["jump_px"], 0.375);
     EXPECT_EQ(keys(frame["cpu_ms"]), (std::set<std::string>{"update", "refine", "emit", "submit"}));
     EXPECT_EQ(keys(frame["triangles"]), (std::set<std::string>{"terrain", "objects", "instruments"}));
     EXPECT_EQ(keys(frame["error_px"]), keys(frame["triangles"]));
