@@ -1,0 +1,63 @@
+// VertexHierarchy: every state an edge-collapse sequence can pass through, as static arrays that any number of
+// fronts share.
+//
+// Leaves are the vertices of the full mesh, 0 … leaf_count - 1; the k-th collapse (a, b) -> p makes node
+// p = leaf_count + k. A node lives from its own id until its parent's: edges join nodes whose lives overlap.
+//
+// Collapse (a, b) -> p is legal when id(p) < oldest parent id of the neighbours of a and b; split p when id(p) > the
+// largest id among p's neighbours. Then every front is made of triangles of the build sequence, and the star around a
+// split or a collapse is exactly the one the build saw: any two ends of an edge were alive at one moment, so
+// were any three corners (intervals that meet in pairs have a common point). That is why two integers replace
+// dependency lists, and why an error proved in the build holds in every front.
+//
+// Sources: El-Sana, Varshney, Generalized view-dependent simplification (1999); Kalachev, Reshetnikova (see
+// docs), sections on PAT and CAT lists and identifiers; Hoppe, View-dependent refinement (1997).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace lod {
+
+using NodeId = uint32_t;
+inline constexpr NodeId kNoNode = 0xffffffffu;
+
+/// A corner of a triangle: three times the triangle plus 0, 1 or 2.
+using CornerId = uint32_t;
+
+/// Geometry is in the mesh frame, metres. Arrays are [nodes] unless said otherwise; what belongs to collapses is
+/// [collapses], node leaf_count + k at k.
+struct VertexHierarchy {
+    uint32_t leaf_count = 0;
+
+    std::vector<glm::vec3> position;
+    std::vector<glm::vec3> normal;                ///< unit length
+    std::vector<glm::u8vec4> colour;              ///< sRGB; alpha: lod::Material
+    std::vector<NodeId> parent;                   ///< kNoNode: a root
+    std::vector<std::array<NodeId, 2>> children;  ///< [collapses]: a (which keeps its place first) and b
+
+    std::vector<std::array<NodeId, 3>>
+        triangles;  ///< [triangles] of the full mesh, leaf ids, counter-clockwise
+
+    // The static star of each collapse (a, b) -> p.
+    std::vector<uint32_t> removed_begin;  ///< [collapses + 1] into removed: PAT
+    std::vector<uint32_t> removed;        ///< triangles that hold both a and b
+    std::vector<uint32_t> kept_begin;  ///< [2 * collapses + 1] into kept: corners of a, then those of b: CAT
+    std::vector<CornerId> kept;        ///< corners that are a (or b) before the collapse and p after
+
+    // What a front decides by.
+    std::vector<float> error_m;  ///< proved: any front in which the node is active departs from the full
+        ///< mesh, around the node, by no more, both ways; leaves 0; rises to the root
+    std::vector<glm::vec3>
+        centre;  ///< sphere that holds the node's star and every full triangle it stands for
+    std::vector<float> radius_m;
+    std::vector<glm::vec3> cone_axis;  ///< normals of those triangles: within the angle of this axis
+    std::vector<float> cone_cos;       ///< cosine of that angle; -1: no cone
+
+    uint32_t node_count() const { return static_cast<uint32_t>(position.size()); }
+    uint32_t collapse_count() const { return node_count() - leaf_count; }
+};
+
+}  // namespace lod
