@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "lod/base/result.h"
-
 namespace data {
 
 /// Geometry that any number of objects share.
@@ -23,7 +21,8 @@ struct TimedMesh {
     std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise outside; may be none
 };
 
-/// From `time_s` on the object is there, or not. Before its first step an object is the opposite of that step.
+/// From `time_s` on, that instant included, the object is there, or not. Before its first step an object is the
+/// opposite of that step. Never there: one step at 0 that hides it.
 struct VisibilityStep {
     double time_s = 0.0;
     bool is_visible = true;
@@ -54,7 +53,9 @@ struct TimedObject {
 enum class MotionClass : uint8_t { kStatic, kPseudoDynamic, kDynamic };
 
 struct TimedScene {
-    double end_s = 0.0;  ///< T > 0; events before 0 and after T are kept and count as at the ends
+    double end_s =
+        0.0;  ///< T > 0. Times are clamped to [0, T] when a scene is asked: what happens before 0 has
+              ///< happened at 0, what happens after T never does (data/scene_time.h)
     glm::dvec3 origin_site{
         0.0};  ///< scene frame's origin: lon, lat in degrees and height m, or CRS x, y, height
     bool is_on_earth = false;  ///< false: the scene frame stands wherever it is put; +x east, +y north, +z up
