@@ -1,0 +1,42 @@
+// Triangle: three points, and the point of it that is nearest to another.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace lod {
+
+/// Any three points, in any order; collapsed ones are segments or points.
+struct Triangle {
+    glm::dvec3 a{0.0}, b{0.0}, c{0.0};
+};
+
+/// A polygon soup: triangles over shared points. No topology is assumed.
+struct Soup {
+    std::span<const glm::dvec3> points;                  ///< metres, finite
+    std::span<const std::array<uint32_t, 3>> triangles;  ///< into points
+
+    Triangle triangle(size_t i) const {
+        const auto& [a, b, c] = triangles[i];
+        return {points[a], points[b], points[c]};
+    }
+};
+
+/// The nearest point of a segment. Exact to rounding for segments of any length, zero included.
+glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b);
+
+/// The nearest point of a triangle. Whatever rounding does to its choice, what it returns lies in the triangle, so
+/// its distance is never less than the true one but for the rounding of one subtraction.
+/// Source: Ericson, Real-time collision detection (2005), 5.1.5. Differs from it in: collapsed triangles are segments.
+glm::dvec3 nearest_on_triangle(const glm::dvec3& point, const Triangle& triangle);
+
+inline double squared_distance(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::dot(a - b, a - b);
+}
+inline double squared_distance(const glm::dvec3& point, const Triangle& triangle) {
+    return squared_distance(point, nearest_on_triangle(point, triangle));
+}
+
+}  // namespace lod

@@ -1,0 +1,52 @@
+// TriangleTree: a soup in a tree of boxes, asked how far away its surface is.
+//
+// The question that proofs need is `cover`: is there one triangle that all three corners of another are near to? The
+// distance to a convex set is a convex function, so over a triangle it is largest at a corner: if the corners are
+// within r of one triangle, so is everything between them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "lod/surface/triangle.h"
+
+namespace lod {
+
+/// Which triangle, in the soup's order, and how far.
+struct TriangleHit {
+    uint32_t triangle = 0xffffffffu;
+    double distance_m = std::numeric_limits<double>::infinity();
+};
+
+class TriangleTree {
+  public:
+    /// Cost: O(n log n), about 0.2 us a triangle and level of the tree. Deterministic.
+    explicit TriangleTree(const Soup& soup);
+
+    bool is_empty() const { return triangles_.empty(); }
+
+    /// The nearest triangle, if it is nearer than `limit_m`; else a hit without a triangle.
+    TriangleHit nearest(const glm::dvec3& point,
+                        double limit_m = std::numeric_limits<double>::infinity()) const;
+
+    /// The triangle for which the largest of the corners' distances is least. Stops early at one where it is at
+    /// most `enough_m`.
+    /// @param hint  a triangle to try first, as an earlier answer gave it; any other number: none
+    TriangleHit cover(const Triangle& corners, double enough_m, uint32_t hint) const;
+
+  private:
+    struct Node {
+        glm::dvec3 low, high;
+        uint32_t begin = 0, end = 0;  ///< of triangles_
+        uint32_t right = 0;           ///< second child, the first follows at once; 0: a leaf
+    };
+    struct Builder;
+
+    std::vector<Node> nodes_;
+    std::vector<Triangle> triangles_;  ///< in the order of the leaves
+    std::vector<uint32_t> original_;   ///< [triangles_] the soup's index
+    std::vector<uint32_t> place_;      ///< [soup's index] where it lies
+};
+
+}  // namespace lod
