@@ -79,16 +79,17 @@ render::Atmosphere atmosphere_of(const World& world, const Shot& shot, const glm
     return air;
 }
 
-uint64_t adaptive_triangles(const World& world) {
-    return world.terrain ? world.terrain->triangles() : 0;
+/// Triangles of the cuts that adapt, or of those that do not.
+uint64_t cut_triangles(const Stage& stage, bool adapts) {
+    uint64_t sum = 0;
+    for (const WorldFront& member : stage.members)
+        sum += member.adapts == adapts ? member.front->triangles() : 0;
+    return sum;
 }
 
 /// The scheduler counts all fronts; what cannot adapt is given to it on top.
 lod::Budget with_rigid(const Stage& stage, lod::Budget budget) {
-    uint64_t all = 0;
-    for (const lod::Front* front : stage.fronts)
-        all += front->triangles();
-    const uint64_t rigid = all - adaptive_triangles(*stage.world);
+    const uint64_t rigid = cut_triangles(stage, false);
     if (budget.max_triangles < UINT64_MAX - rigid) budget.max_triangles += rigid;
     return budget;
 }
@@ -104,22 +105,19 @@ lod::OperationCounts all_operations(const Stage& stage) {
 }
 
 void record_fronts(Stage& stage, FrameRecord& record) {
-    const World& world = *stage.world;
-    const std::array<lod::Front*, kModuleCount> modules = {world.terrain.get(), world.objects.get(),
-                                                           world.instruments.get()};
-    for (size_t i = 0; i < kModuleCount; ++i) {
-        if (!modules[i]) continue;
-        record.triangles[i] = modules[i]->emitted_triangles();
-        record.error_px[i] = modules[i]->error_px();
-        record.jump_px = std::max(record.jump_px, modules[i]->jump_px());
-        record.front_hash = lod::hash_combine(record.front_hash, modules[i]->hash());
+    for (const WorldFront& member : stage.members) {
+        const auto module = static_cast<size_t>(member.module);
+        record.triangles[module] += member.front->emitted_triangles();
+        record.error_px[module] = std::max(record.error_px[module], member.front->error_px());
+        record.jump_px = std::max(record.jump_px, member.front->jump_px());
+        record.front_hash = lod::hash_combine(record.front_hash, member.front->hash());
     }
     const lod::OperationCounts now = all_operations(stage);
     for (size_t i = 0; i < now.count.size(); ++i) {
         record.operations.count[i] = now.count[i] - stage.operations_before.count[i];
     }
     stage.operations_before = now;
-    record.cut_triangles = adaptive_triangles(world);
+    record.cut_triangles = cut_triangles(stage, true);
     record.draw_calls = stage.renderer.stats().draw_calls;
     record.commands = stage.renderer.stats().commands;
 }
@@ -146,8 +144,10 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
     options.pool = {1, 3, 16};  // until the fronts are placed
     auto renderer = render::Renderer::create(options);
     if (!renderer) return renderer.error();
-    Stage stage{std::move(world), std::move(*renderer), optics, {}, {}, {}, {}};
-    stage.fronts = fronts_of(*stage.world);
+    Stage stage{std::move(world), std::move(*renderer), optics, {}, {}, {}, {}, {}};
+    stage.members = fronts_of(*stage.world);
+    for (const WorldFront& member : stage.members)
+        stage.fronts.push_back(member.front);
     if (auto pool = stage.renderer.resize_pool(share_out(stage)); !pool) return pool.error();
     stage.operations_before = all_operations(stage);
     const data::Image& colours = stage.world->ground_colours;

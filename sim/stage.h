@@ -49,9 +49,10 @@ struct Stage {
     std::unique_ptr<World> world;
     render::Renderer renderer;
     Optics optics;
-    std::vector<lod::Front*> fronts;
+    std::vector<WorldFront> members;  ///< the world's fronts
+    std::vector<lod::Front*> fronts;  ///< [members], as the scheduler takes them
     lod::DrawList list;
-    std::vector<lod::PoolRegion> regions;  ///< [fronts]
+    std::vector<lod::PoolRegion> regions;  ///< [members]
     lod::OperationCounts operations_before;
 };
 

@@ -233,11 +233,11 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
     return world;
 }
 
-std::vector<lod::Front*> fronts_of(const World& world) {
-    std::vector<lod::Front*> fronts;
-    if (world.terrain) fronts.push_back(world.terrain.get());
-    if (world.objects) fronts.push_back(world.objects.get());
-    if (world.instruments) fronts.push_back(world.instruments.get());
+std::vector<WorldFront> fronts_of(const World& world) {
+    std::vector<WorldFront> fronts;
+    if (world.terrain) fronts.push_back({world.terrain.get(), lod::Module::kTerrain, true});
+    if (world.objects) fronts.push_back({world.objects.get(), lod::Module::kObjects, false});
+    if (world.instruments) fronts.push_back({world.instruments.get(), lod::Module::kInstruments, false});
     return fronts;
 }
 

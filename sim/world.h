@@ -61,8 +61,15 @@ struct World {
 /// Fails on the first source that cannot be read, naming it.
 lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldOptions& options);
 
+/// A front of the world and what it stands for.
+struct WorldFront {
+    lod::Front* front = nullptr;
+    lod::Module module = lod::Module::kTerrain;
+    bool adapts = false;  ///< false: what it draws is no matter of the budget
+};
+
 /// The fronts there are, in the order of lod::Module.
-std::vector<lod::Front*> fronts_of(const World& world);
+std::vector<WorldFront> fronts_of(const World& world);
 
 /// What needles show at a state of flight.
 Signals signals_of(const World& world, const EyeState& state, double time_s);
