@@ -6,17 +6,14 @@
 #include <vector>
 
 #include "data/ground_frame.h"
+#include "lod/sight_metric.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_table.h"
 
 namespace terrain {
 
 /// Metres, relative to the terrain's anchor.
-struct DiamondBound {
-    glm::vec3 centre{0.0f};
-    float radius_m = 0.0f;
-    float error_m = 0.0f;
-};
+using DiamondBound = lod::ErrorSphere;
 
 /// Makes bounds on the fly, from a record and eight bytes of the table; nothing is stored per diamond.
 class BoundMaker {

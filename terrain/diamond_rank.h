@@ -2,14 +2,14 @@
 // record stays, and its place in a queue.
 #pragma once
 
-#include "terrain/bucket_queue.h"
+#include "lod/bucket_queue.h"
 #include "terrain/diamond_table.h"
 
 namespace terrain {
 
 struct DiamondRank {
     DiamondSource source;
-    BucketLink link;
+    lod::BucketLink link;
 };
 static_assert(sizeof(DiamondRank) == 16);
 

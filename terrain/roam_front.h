@@ -3,8 +3,8 @@
 //
 //     DiamondMesh   which diamonds are split            (diamond_mesh.h, topology)
 //     DiamondTable  how wrong each may be, in metres    (diamond_table.h, computed once)
-//     evaluate      the same in pixels, and for how long (diamond_metric.h)
-//     BucketQueue   worst candidate, cheapest merge      (bucket_queue.h)
+//     evaluate      the same in pixels, and for how long (lod/sight_metric.h)
+//     BucketQueue   worst candidate, cheapest merge      (lod/bucket_queue.h)
 //     Tessellator   the triangles, in Sierpinski order   (tessellator.h)
 //
 // Sources: Duchaineau et al., ROAMing Terrain (1997): dual queues. Elykov, Lavrentiev et al. (Softlab-NSK), section
@@ -16,18 +16,30 @@
 #include <memory>
 #include <vector>
 
+#include "lod/bucket_queue.h"
+#include "lod/eye_odometer.h"
 #include "lod/front.h"
-#include "terrain/bucket_queue.h"
+#include "lod/sight_metric.h"
 #include "terrain/diamond_mesh.h"
-#include "terrain/diamond_metric.h"
 #include "terrain/diamond_rank.h"
 #include "terrain/diamond_table.h"
-#include "terrain/eye_odometer.h"
 #include "terrain/store/page_loader.h"
 #include "terrain/tessellator.h"
 #include "terrain/vertex_glides.h"
 
 namespace terrain {
+
+using lod::AnchoredEye;
+using lod::Bucket;
+using lod::BucketQueue;
+using lod::BucketScale;
+using lod::EyeOdometer;
+using lod::FourBounds;
+using lod::FourEvaluations;
+using lod::kBucketCount;
+using lod::kFirstErrorBucket;
+using lod::kFlatBucket;
+using lod::kHiddenBucket;
 
 struct RoamOptions {
     double tolerance_px =

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "lod/base/check.h"
-#include "terrain/diamond_metric.h"
+#include "lod/sight_metric.h"
 #include "terrain/leaf_cover.h"
 
 namespace terrain {
@@ -18,7 +18,7 @@ struct IndexWriter {
     enum class State : uint8_t { kUnknown, kInside };
 
     const TessellationInput& input;
-    const AnchoredEye& eye;
+    const lod::AnchoredEye& eye;
     LeafCover cover;
     std::vector<uint32_t>& indices;
 
@@ -129,7 +129,7 @@ void Tessellator::emit(const TessellationInput& input, const lod::View& view, lo
         is_first_view_ = false;
     }
     const size_t first = indices_.size();
-    const AnchoredEye eye(view, input.bound_of.anchor_world());
+    const lod::AnchoredEye eye(view, input.bound_of.anchor_world());
     IndexWriter writer{input, eye, {input.table, input.mesh, input.ranks}, indices_};
     LeafWalk(input.mesh, writer).run(IndexWriter::State::kUnknown);
     emitted_ = (indices_.size() - first) / 3;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/diamond_metric.h"
+#include "lod/sight_metric.h"
 #include "terrain/diamond_table.h"
 
 namespace bench {
@@ -135,7 +135,7 @@ class SplitOnlyRoam {
     float cell_m_ = 1.0f;
     std::vector<float> reach_m_;
     glm::dvec3 origin_{0.0};
-    std::optional<terrain::AnchoredEye> eye_;
+    std::optional<lod::AnchoredEye> eye_;
     float tolerance_px_ = 1.0f;
     std::vector<Node> nodes_;
     uint32_t used_ = 0;

@@ -13,7 +13,7 @@
 #include "lod/base/check.h"
 #include "lod/base/float4.h"
 
-namespace terrain {
+namespace lod {
 
 /// Bucket numbers: 0 not in view; 1 in view, error exactly 0; 2 … 255 rising error.
 using Bucket = uint8_t;
@@ -31,16 +31,14 @@ struct BucketScale {
 
     /// Four at a time, as whole numbers.
     /// @param error_px  > 0, finite
-    lod::Int4 buckets_of(lod::Float4 error_px) const {
-        const lod::Int4 bits = std::bit_cast<lod::Int4>(error_px / reference_px) >> 20;
-        const lod::Int4 bucket = bits - int32_t(kBaseBits) + int32_t(kFirstErrorBucket);
-        const lod::Int4 lowest = lod::Int4{} + int32_t(kFirstErrorBucket);
-        const lod::Int4 highest = lod::Int4{} + int32_t(kBucketCount - 1u);
+    Int4 buckets_of(Float4 error_px) const {
+        const Int4 bits = std::bit_cast<Int4>(error_px / reference_px) >> 20;
+        const Int4 bucket = bits - int32_t(kBaseBits) + int32_t(kFirstErrorBucket);
+        const Int4 lowest = Int4{} + int32_t(kFirstErrorBucket);
+        const Int4 highest = Int4{} + int32_t(kBucketCount - 1u);
         return bucket < lowest ? lowest : bucket > highest ? highest : bucket;
     }
-    Bucket bucket_of(float error_px) const {
-        return static_cast<Bucket>(buckets_of(lod::splat(error_px))[0]);
-    }
+    Bucket bucket_of(float error_px) const { return static_cast<Bucket>(buckets_of(splat(error_px))[0]); }
 
     /// Errors of a bucket are in [lower, upper); the topmost has no upper edge.
     float lower_px(Bucket bucket) const {
@@ -54,17 +52,16 @@ struct BucketScale {
     }
 
     /// lower_px and upper_px of four buckets that hold errors.
-    lod::Float4 lowers_px(lod::Int4 bucket) const {
-        const lod::Float4 edge =
-            std::bit_cast<lod::Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket)) << 20) *
-            reference_px;
-        return bucket <= int32_t(kFirstErrorBucket) ? lod::Float4{} : edge;
+    Float4 lowers_px(Int4 bucket) const {
+        const Float4 edge =
+            std::bit_cast<Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket)) << 20) * reference_px;
+        return bucket <= int32_t(kFirstErrorBucket) ? Float4{} : edge;
     }
-    lod::Float4 uppers_px(lod::Int4 bucket) const {
-        const lod::Float4 edge =
-            std::bit_cast<lod::Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket + 1u)) << 20) *
+    Float4 uppers_px(Int4 bucket) const {
+        const Float4 edge =
+            std::bit_cast<Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket + 1u)) << 20) *
             reference_px;
-        return bucket == int32_t(kBucketCount - 1u) ? lod::splat(std::numeric_limits<float>::max()) : edge;
+        return bucket == int32_t(kBucketCount - 1u) ? splat(std::numeric_limits<float>::max()) : edge;
     }
 };
 
@@ -128,4 +125,4 @@ class BucketQueue {
     std::array<uint64_t, 4> occupied_{};
 };
 
-}  // namespace terrain
+}  // namespace lod

@@ -1,15 +1,14 @@
-#include "terrain/eye_odometer.h"
+#include "lod/eye_odometer.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-namespace terrain {
+namespace lod {
 namespace {
 
 /// Readings are floats in the records: they start again before a millimetre is lost.
 constexpr double kLimit = 4096.0;
-/// At the distance where turning moves a point as far as walking does, both get one half.
-constexpr double kTypicalDistance_m = 2000.0;
 
 /// Chord of the rotation between two orientations: moves a point at distance 1 by at most this.
 double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
@@ -19,13 +18,13 @@ double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
     return std::sqrt(sum / 2.0);
 }
 
-bool has_same_optics(const lod::ViewMetric& a, const lod::ViewMetric& b) {
+bool has_same_optics(const ViewMetric& a, const ViewMetric& b) {
     return a.lambda_px == b.lambda_px && a.tan_x == b.tan_x && a.tan_y == b.tan_y && a.near_m == b.near_m;
 }
 
 }  // namespace
 
-EyeOdometer::Step EyeOdometer::advance(std::span<const lod::View> views, const glm::dvec3& anchor_world) {
+EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::dvec3& anchor_world) {
     bool is_comparable = views.size() == eyes_.size();
     double step_m = 0.0, step_rad = 0.0;
     for (size_t i = 0; i < views.size(); ++i) {
@@ -42,12 +41,11 @@ EyeOdometer::Step EyeOdometer::advance(std::span<const lod::View> views, const g
     eyes_.erase(eyes_.begin() + static_cast<std::ptrdiff_t>(views.size()), eyes_.end());
     walked_m_ += step_m;
     turned_rad_ += step_rad;
-    walk_share_ =
-        static_cast<float>(std::clamp(step_m / (step_m + kTypicalDistance_m * step_rad + 1e-30), 0.1, 0.9));
+    walk_share_ = static_cast<float>(std::clamp(step_m / (step_m + typical_m_ * step_rad + 1e-30), 0.1, 0.9));
     if (is_comparable && walked_m_ < kLimit && turned_rad_ < kLimit) return Step::kAdvanced;
     walked_before_m_ = std::exchange(walked_m_, 0.0);
     turned_before_rad_ = std::exchange(turned_rad_, 0.0);
     return is_comparable ? Step::kRewound : Step::kIncomparable;
 }
 
-}  // namespace terrain
+}  // namespace lod

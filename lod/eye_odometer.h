@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "lod/base/float4.h"
+#include "lod/sight_metric.h"
 #include "lod/view.h"
-#include "terrain/diamond_metric.h"
 
-namespace terrain {
+namespace lod {
 
 class EyeOdometer {
   public:
+    /// @param typical_m  at this distance turning moves a point as far as walking does
+    explicit EyeOdometer(double typical_m = 2000.0) : typical_m_(typical_m) {}
+
     /// What a frame did to the sleepers' readings.
     enum class Step : uint8_t {
         kAdvanced,  ///< the readings grew
@@ -24,7 +27,7 @@ class EyeOdometer {
     };
 
     /// Takes the frame's views. @param anchor_world  origin of the eyes' coordinates
-    Step advance(std::span<const lod::View> views, const glm::dvec3& anchor_world);
+    Step advance(std::span<const View> views, const glm::dvec3& anchor_world);
 
     std::span<const AnchoredEye> eyes() const { return eyes_; }
     float walked_m() const { return static_cast<float>(walked_m_); }
@@ -34,18 +37,19 @@ class EyeOdometer {
 
     /// Readings at which guards are used up at the earliest, in `walk_m` and `turn_rad`. A guard is shared out
     /// between walking and turning as the last frame's motion was.
-    void alarms(const FourEvaluations& now, lod::Float4& walk_m, lod::Float4& turn_rad) const {
-        const lod::Float4 walk = now.guard_m * walk_share_;
-        const lod::Float4 turn = (now.guard_m - walk) / (now.distance_m + walk + 1e-6f);
+    void alarms(const FourEvaluations& now, Float4& walk_m, Float4& turn_rad) const {
+        const Float4 walk = now.guard_m * walk_share_;
+        const Float4 turn = (now.guard_m - walk) / (now.distance_m + walk + 1e-6f);
         walk_m = (walked_m() + walk) * (1.0f - 0x1p-20f);
         turn_rad = (turned_rad() + turn) * (1.0f - 0x1p-20f);
     }
 
   private:
+    double typical_m_;
     std::vector<AnchoredEye> eyes_;
     double walked_m_ = 0.0, turned_rad_ = 0.0;
     double walked_before_m_ = 0.0, turned_before_rad_ = 0.0;
     float walk_share_ = 0.5f;
 };
 
-}  // namespace terrain
+}  // namespace lod
