@@ -1,8 +1,10 @@
-// paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone]: a flight at 300 m/s over a paged terrain at 60 frames a second of real
-// time, beside the same flight over the same table in memory, frame by frame. Prints one JSON object: the times
-// of adaptation, what was not there in time, holes (none are allowed), and the resident memory.
+// paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone] [draw]: a flight at 300 m/s over a paged terrain, beside the same
+// flight over the same table in memory, frame by frame, in turns. Prints one JSON object: the times of adaptation,
+// what was not there in time, holes (none are allowed), and the resident memory without what is mapped from files.
 //
-// `alone` leaves the table in memory out: then the process's memory is the paged terrain's.
+// `alone` leaves the table in memory out. `draw` makes 640 x 360 pictures of both: then a frame's time is that of the
+// complete picture, every paged picture is searched for background where ground must be, and simulated time passes as
+// fast as pictures come; without it, at 60 frames a second.
 #include <time.h>
 
 #include <algorithm>
@@ -19,40 +21,18 @@
 #include "lod/scheduler.h"
 #include "terrain/roam_front.h"
 #include "terrain/store/page_loader.h"
+#include "tests/bench/flight_path.h"
+#include "tests/bench/flight_picture.h"
 #include "tests/terrain/conformity.h"
-#include "tests/terrain/test_relief.h"
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSpeed_mps = 300.0, kRate_hz = 60.0;
+constexpr double kRate_hz = 60.0, kGlide_s = 0.4;
 constexpr uint64_t kMaxTriangles = 400'000;
+constexpr int kWidth_px = 640, kHeight_px = 360;
 constexpr int kWarmFrames = 120, kFramesPerCheck = 600;
-
-/// A flight in wide curves over a planar raster, 1000 m above its highest place.
-class Path {
-  public:
-    explicit Path(const terrain::DiamondTable& table)
-        : middle_(table.frame.world_from_sample(table.domain.width / 2, table.domain.height / 2, 0.0)),
-          radius_m_(0.2 * table.domain.width * table.frame.cell_m().x),
-          height_m_(double(table.max_m) + 1000.0) {}
-
-    /// A figure of eight, as fast all along as a Lissajous curve allows: 300 m/s on average.
-    glm::dvec3 eye_at(double time_s) const {
-        const double a = kSpeed_mps * time_s / (1.6 * radius_m_);
-        return {middle_.x + 2.0 * radius_m_ * std::sin(a), middle_.y + radius_m_ * std::sin(2.0 * a),
-                height_m_};
-    }
-    lod::View view_at(double time_s) const {
-        const glm::dvec3 way = eye_at(time_s + 0.01) - eye_at(time_s);
-        return terrain_test::level_view(eye_at(time_s), std::atan2(way.x, way.y), -0.12);
-    }
-
-  private:
-    glm::dvec3 middle_;
-    double radius_m_, height_m_;
-};
 
 /// Time of this thread on a processor: what others do on a shared machine is left out.
 double busy_us() {
@@ -75,13 +55,22 @@ struct Spent {
     }
 };
 
-Spent adapt(terrain::RoamFront& front, const lod::View& view, double time_s, double tolerance_px) {
+/// What is flown: one front or two, and the pictures if there are any.
+struct Rig {
+    terrain::RoamFront& paged;
+    terrain::RoamFront* whole;      ///< may be null
+    bench::FlightPicture* picture;  ///< may be null
+    double tolerance_px;
+};
+
+Spent fly_frame(const Rig& rig, terrain::RoamFront& front, const lod::View& view, double time_s) {
     const auto begin = Clock::now();
     const double busy_before_us = busy_us();
     lod::Front* fronts[] = {&front};
     front.begin_frame({&view, 1}, time_s);
-    lod::schedule(fronts, {.tolerance_px = tolerance_px, .max_triangles = kMaxTriangles},
+    lod::schedule(fronts, {.tolerance_px = rig.tolerance_px, .max_triangles = kMaxTriangles},
                   lod::operation_limit(20'000));
+    if (rig.picture != nullptr) rig.picture->draw(front, view);
     return {std::chrono::duration<double, std::micro>(Clock::now() - begin).count(),
             busy_us() - busy_before_us};
 }
@@ -109,7 +98,7 @@ double resident_mb() {
     std::string word;
     while (status >> word) {
         double kb = 0.0;
-        if (word == "VmRSS:" && status >> kb) return kb / 1024.0;
+        if (word == "RssAnon:" && status >> kb) return kb / 1024.0;
     }
     return 0.0;
 }
@@ -127,43 +116,76 @@ nlohmann::json quantiles(const Times& times) {
 
 struct Flight {
     Times paged, whole;
-    std::vector<double> resident_mb;
+    std::vector<double> resident_mb;  ///< at each check
     int frames = 0, late = 0, holes = 0, checks = 0;
+    uint64_t ground_pixels = 0, hole_pixels = 0;
     double worst_late_px = 0.0;
     uint64_t most_triangles = 0;
 };
 
-Flight fly(terrain::RoamFront& paged, terrain::RoamFront* whole, int frames, double tolerance_px) {
-    const Path path(paged.table());
+void note_frame(const Rig& rig, const Spent& paged, const Spent& whole, Flight& flight) {
+    paged.add_to(flight.paged);
+    if (rig.whole != nullptr) whole.add_to(flight.whole);
+    const double reached_px = rig.whole != nullptr ? rig.whole->error_px() : rig.tolerance_px;
+    if (rig.paged.error_px() > std::max(reached_px, rig.tolerance_px) * 1.001) ++flight.late;
+    flight.worst_late_px = std::max(flight.worst_late_px, rig.paged.error_px());
+}
+
+/// A front's part of the pool, the n-th of equals: room for the most triangles there may be.
+lod::PoolRegion region_of(uint32_t n) {
+    constexpr uint32_t kVertices = kMaxTriangles * 5 / 4, kIndices = 3 * kMaxTriangles;
+    return {n * kVertices, kVertices, n * kIndices, kIndices};
+}
+
+/// The whole raster needs a region of its own; what is drawn next is written anew.
+void check(const Rig& rig, const lod::View& view, double time_s, Flight& flight) {
+    rig.paged.begin_frame({&view, 1}, time_s);
+    flight.resident_mb.push_back(resident_mb());
+    flight.holes += has_hole(rig.paged, rig.paged.table()) ? 1 : 0;
+    ++flight.checks;
+    rig.paged.place(region_of(0));
+}
+
+Flight fly(const Rig& rig, int frames) {
+    const bench::FlightPath path(rig.paged.table());
     Flight flight;
     auto next_frame = Clock::now();
     for (int frame = 0; frame < frames; ++frame) {
         const double time_s = frame / kRate_hz;
-        const lod::View view = path.view_at(time_s);
+        lod::View view = path.view_at(time_s);
+        if (rig.picture != nullptr) view = rig.picture->sized(view);
         // In turn, so that neither always finds the caches as the other left them.
-        Spent whole_spent;
-        if (whole != nullptr && frame % 2 == 0) whole_spent = adapt(*whole, view, time_s, tolerance_px);
-        const Spent paged_spent = adapt(paged, view, time_s, tolerance_px);
-        if (whole != nullptr && frame % 2 == 1) whole_spent = adapt(*whole, view, time_s, tolerance_px);
+        Spent whole;
+        if (rig.whole != nullptr && frame % 2 == 0) whole = fly_frame(rig, *rig.whole, view, time_s);
+        const Spent paged = fly_frame(rig, rig.paged, view, time_s);
+        if (rig.picture != nullptr)
+            flight.hole_pixels += rig.picture->hole_pixels(rig.paged.table(), view, flight.ground_pixels);
+        if (rig.whole != nullptr && frame % 2 == 1) whole = fly_frame(rig, *rig.whole, view, time_s);
         ++flight.frames;
-        if (frame >= kWarmFrames) {
-            paged_spent.add_to(flight.paged);
-            if (whole != nullptr) whole_spent.add_to(flight.whole);
-            const double reached_px = whole != nullptr ? whole->error_px() : tolerance_px;
-            if (paged.error_px() > std::max(reached_px, tolerance_px) * 1.001) ++flight.late;
-            flight.worst_late_px = std::max(flight.worst_late_px, paged.error_px());
-        }
-        flight.most_triangles = std::max(flight.most_triangles, paged.triangles());
+        if (frame >= kWarmFrames) note_frame(rig, paged, whole, flight);
+        flight.most_triangles = std::max(flight.most_triangles, rig.paged.triangles());
         if (frame % kFramesPerCheck == 0) {
-            flight.resident_mb.push_back(resident_mb());
-            flight.holes += has_hole(paged, paged.table()) ? 1 : 0;
-            ++flight.checks;
+            check(rig, view, time_s, flight);
             next_frame = Clock::now();
         }
+        if (rig.picture != nullptr) continue;
         next_frame += std::chrono::microseconds(16'667);
         std::this_thread::sleep_until(next_frame);
     }
     return flight;
+}
+
+/// Megabytes a minute of flight: the line of least squares through the second half.
+double slope_mb_per_minute(const std::vector<double>& resident_mb) {
+    const size_t first = resident_mb.size() / 2;
+    const double count = double(resident_mb.size() - first), middle = (count - 1.0) / 2.0;
+    double above = 0.0, below = 0.0;
+    for (size_t i = first; i < resident_mb.size(); ++i) {
+        const double x = double(i - first) - middle;
+        above += x * resident_mb[i];
+        below += x * x;
+    }
+    return below > 0.0 ? above / below * 60.0 * kRate_hz / kFramesPerCheck : 0.0;
 }
 
 nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
@@ -178,7 +200,10 @@ nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
             {"triangles", flight.most_triangles},
             {"checks", flight.checks},
             {"holes", flight.holes},
+            {"ground_pixels", flight.ground_pixels},
+            {"hole_pixels", flight.hole_pixels},
             {"resident_mb_second_half", {{"least", *least}, {"most", *most}}},
+            {"resident_slope_mb_per_minute", slope_mb_per_minute(flight.resident_mb)},
             {"loader_mb", double(loader.memory_bytes()) / (1 << 20)},
             {"pages",
              {{"here", tally.here},
@@ -187,12 +212,33 @@ nlohmann::json report(const Flight& flight, const terrain::PageLoader& loader) {
               {"most_loads", tally.most_loads}}}};
 }
 
+/// The table in memory, all of it touched: what maps a file comes page by page otherwise.
+lod::Result<terrain::DiamondTable> table_in_memory(const terrain::StoreFile& store) {
+    auto table = store.map_table();
+    if (!table) return table.error();
+    uint64_t sum = 0;
+    for (size_t i = 0; i < table->slots.size(); i += 512)
+        sum += table->slots[i].error_code;
+    std::fprintf(stderr, "table in memory, %.0f MB (%llu)\n", double(table->slots.size()) * 8e-6,
+                 static_cast<unsigned long long>(sum));
+    return table;
+}
+
+struct Wishes {
+    bool alone = false, draws = false;
+};
+
 }  // namespace
 
 int main(int count, char** words) {
     if (count < 5) {
-        std::fprintf(stderr, "paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone]\n");
+        std::fprintf(stderr, "paged_flight STORE SECONDS CAP_MB TOLERANCE_PX [alone] [draw]\n");
         return 2;
+    }
+    Wishes wishes;
+    for (int i = 5; i < count; ++i) {
+        wishes.alone |= std::string(words[i]) == "alone";
+        wishes.draws |= std::string(words[i]) == "draw";
     }
     const auto fail = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
@@ -201,20 +247,32 @@ int main(int count, char** words) {
     auto store = terrain::StoreFile::open(words[1]);
     if (!store) return fail(store.message());
     const double tolerance_px = std::atof(words[4]);
-    const terrain::RoamOptions options{.tolerance_px = tolerance_px, .reserve_triangles = kMaxTriangles};
+    const terrain::RoamOptions options{.tolerance_px = tolerance_px,
+                                       .reserve_triangles = kMaxTriangles,
+                                       .glide_s = wishes.draws ? kGlide_s : 0.0};
     std::optional<terrain::RoamFront> whole;
-    if (count < 6) {
-        auto table = store->map_table();
+    if (!wishes.alone) {
+        auto table = table_in_memory(*store);
         if (!table) return fail(table.message());
         whole.emplace(std::move(*table), options);
+        whole->place(region_of(1));
     }
     auto opened = open_paged_table(
         std::move(*store),
         {.memory_bytes = std::strtoull(words[3], nullptr, 10) << 20, .want_px = 0.5 * tolerance_px});
     if (!opened) return fail(opened.message());
     terrain::RoamFront paged(std::move(opened->table), options, std::move(opened->loader));
-    const Flight flight =
-        fly(paged, whole ? &*whole : nullptr, static_cast<int>(std::atof(words[2]) * kRate_hz), tolerance_px);
+    paged.place(region_of(0));
+    std::optional<bench::FlightPicture> picture;
+    if (wishes.draws) {
+        const lod::PoolRegion one = region_of(1);
+        auto made = bench::FlightPicture::create(kWidth_px, kHeight_px,
+                                                 {2 * one.vertex_capacity, 2 * one.index_capacity, 16});
+        if (!made) return fail(made.message());
+        picture.emplace(std::move(*made));
+    }
+    const Rig rig{paged, whole ? &*whole : nullptr, picture ? &*picture : nullptr, tolerance_px};
+    const Flight flight = fly(rig, static_cast<int>(std::atof(words[2]) * kRate_hz));
     std::printf("%s\n", report(flight, *paged.loader()).dump(1).c_str());
-    return flight.holes == 0 ? 0 : 1;
+    return flight.holes == 0 && flight.hole_pixels == 0 ? 0 : 1;
 }
