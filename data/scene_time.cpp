@@ -61,14 +61,16 @@ double visible_s(const TimedScene& scene, const TimedObject& object) {
 }
 
 ObjectPose pose_at(const TimedScene& scene, const TimedObject& object, double time_s) {
-    const auto keys = keys_of(scene, object);
-    const double time = clamped_time(scene, time_s);
-    const size_t next = first_after(keys, time);
+    return pose_between(keys_of(scene, object), clamped_time(scene, time_s));
+}
+
+ObjectPose pose_between(std::span<const KeyFrame> keys, double time_s) {
+    const size_t next = first_after(keys, time_s);
     if (next == 0) return {keys.front().position, keys.front().rotation};
     const KeyFrame& from = keys[next - 1];
     if (next == keys.size()) return {from.position, from.rotation};
     const KeyFrame& to = keys[next];
-    const double share = (time - from.time_s) / (to.time_s - from.time_s);
+    const double share = (time_s - from.time_s) / (to.time_s - from.time_s);
     return {glm::mix(from.position, to.position, share), glm::slerp(from.rotation, to.rotation, share)};
 }
 

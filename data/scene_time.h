@@ -41,6 +41,9 @@ struct ObjectPose {
 /// Cost: O(log keys); an arc costs trigonometry.
 ObjectPose pose_at(const TimedScene& scene, const TimedObject& object, double time_s);
 
+/// The same of key frames alone; not empty, times strictly rising; `time_s` as it is.
+ObjectPose pose_between(std::span<const KeyFrame> keys, double time_s);
+
 /// Dynamic: some two of its key frames differ. Else static when it is there at every time of [0, T], else
 /// pseudo-dynamic. What happens outside [0, T] makes no difference to visibility.
 /// Source: Semenov, Shutkin, Zolotov et al., Visualization of large scenes with deterministic dynamics (2020),

@@ -1,0 +1,185 @@
+#include "objects/cluster_front.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lod/base/check.h"
+
+namespace objects {
+namespace {
+
+constexpr double kForEver_s = std::numeric_limits<double>::infinity();
+
+bool is_same(const lod::View& a, const lod::View& b) {
+    return a.eye_world == b.eye_world && a.eye_from_world == b.eye_from_world && a.fov_y_rad == b.fov_y_rad &&
+           a.width_px == b.width_px && a.height_px == b.height_px && a.near_m == b.near_m;
+}
+
+bool are_same(std::span<const lod::View> a, std::span<const lod::View> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same);
+}
+
+}  // namespace
+
+ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
+    : tree_(std::move(tree)), place_(place), cut_(tree_.clusters.size()) {
+    CHECK(!tree_.clusters.empty());
+    add(kRootCluster);
+}
+
+/// Where on its step function the cluster is.
+void ClusterFront::look_up_presence(CutRecord& record) {
+    ++presence_lookups_;
+    const uint32_t visibility = tree_.clusters[record.id].visibility;
+    const uint32_t step = step_at(tree_, visibility, time_s_);
+    const data::IndexRange range = tree_.visibilities[visibility];
+    record.presence = tree_.step_value[step];
+    record.begin_s = step == range.begin ? -kForEver_s : tree_.step_time_s[step];
+    record.end_s = step + 1 == range.end ? kForEver_s : tree_.step_time_s[step + 1];
+}
+
+void ClusterFront::evaluate(CutRecord& record) {
+    record.is_seen = false;
+    record.error_px = 0.0;
+    if (record.presence <= 0.0 || sights_.empty()) return;
+    ++evaluations_;
+    const Cluster& cluster = tree_.clusters[record.id];
+    const ClusterSight sight =
+        sight_of(sights_, sphere_at(tree_, cluster, time_s_), timed_error_m(cluster, record.presence));
+    record.is_seen = sight.is_seen;
+    record.error_px = sight.error_px;
+}
+
+void ClusterFront::count_triangles(const CutRecord& record, int64_t sign) {
+    const uint32_t geometry = tree_.clusters[record.id].geometry;
+    if (record.is_refined || record.presence < 0.5 || geometry == kNoGeometry) return;
+    triangles_ += static_cast<uint64_t>(sign * int64_t(tree_.geometries[geometry].index_count / 3));
+}
+
+/// Puts a record where its next operation is looked for.
+void ClusterFront::offer(const CutRecord& record) {
+    if (record.is_refined) {
+        cheapest_.push(record.error_px, record.id);
+    } else if (record.error_px > 0.0 && !tree_.is_leaf(record.id)) {  // a leaf is exact
+        worst_.push(record.error_px, record.id);
+    }
+}
+
+void ClusterFront::add(ClusterId id) {
+    CutRecord& record = cut_.add(id);
+    look_up_presence(record);
+    evaluate(record);
+    count_triangles(record, 1);
+    hash_ += cluster_hash(id);
+    offer(record);
+}
+
+void ClusterFront::remove(ClusterId id) {
+    const CutRecord& record = cut_.at(id);
+    count_triangles(record, -1);
+    if (!record.is_refined) hash_ -= cluster_hash(id);
+    cut_.remove(id);
+}
+
+void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) {
+    CHECK(!views.empty());
+    jump_px_ = 0.0;
+    const double time = time_s > 0.0 ? std::min(time_s, tree_.end_s) : 0.0;  // NaN is not above 0
+    const bool is_new_time = time != time_s_;
+    const bool is_new_view = !are_same(views, views_);
+    if (!is_new_time && !is_new_view) return;
+    time_s_ = time;
+    if (is_new_view) {
+        views_.assign(views.begin(), views.end());
+        sights_.clear();
+        for (const lod::View& view : views_)
+            sights_.emplace_back(view, place_);
+    }
+    worst_.clear();
+    cheapest_.clear();
+    for (CutRecord& record : cut_) {
+        const bool has_event = time < record.begin_s || time >= record.end_s;
+        if (has_event) {
+            count_triangles(record, -1);
+            look_up_presence(record);
+            count_triangles(record, 1);
+        }
+        if (is_new_view || has_event || tree_.moves(record.id)) evaluate(record);
+        offer(record);
+    }
+}
+
+double ClusterFront::refine_error_px() {
+    for (; !worst_.is_empty(); worst_.pop()) {
+        const ClusterId id = worst_.top();
+        if (cut_.holds(id) && !cut_.at(id).is_refined && cut_.at(id).error_px == worst_.top_error_px())
+            return worst_.top_error_px();
+    }
+    return 0.0;
+}
+
+double ClusterFront::coarsen_error_px() {
+    for (; !cheapest_.is_empty(); cheapest_.pop()) {
+        const ClusterId id = cheapest_.top();
+        if (cut_.holds(id) && cut_.at(id).is_refined && cut_.at(id).error_px == cheapest_.top_error_px())
+            return cheapest_.top_error_px();
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+double ClusterFront::error_px() {
+    return refine_error_px();
+}
+
+lod::Step ClusterFront::refine() {
+    if (refine_error_px() <= 0.0) return {};
+    const ClusterId id = worst_.top();
+    worst_.pop();
+    const uint64_t before = triangles_;
+    CutRecord& record = cut_.at(id);
+    count_triangles(record, -1);
+    record.is_refined = true;
+    hash_ -= cluster_hash(id);
+    const Cluster& cluster = tree_.clusters[id];
+    if (cluster.geometry != kNoGeometry) jump_px_ = std::max(jump_px_, record.error_px);
+    offer(record);
+    for (uint32_t child = 0; child < cluster.child_count; ++child)
+        add(cluster.first_child + child);
+    ++operations_[lod::OperationKind::kClusterRefine];
+    return {static_cast<int64_t>(triangles_ - before), cluster.child_count};
+}
+
+/// Makes a refined cluster active; everything below it goes. Returns how many clusters went.
+uint32_t ClusterFront::take_back(ClusterId id) {
+    uint32_t gone = 0;
+    stack_.assign(1, id);
+    while (!stack_.empty()) {
+        const Cluster& above = tree_.clusters[stack_.back()];
+        stack_.pop_back();
+        for (uint32_t i = 0; i < above.child_count; ++i) {
+            const ClusterId child = above.first_child + i;
+            if (cut_.at(child).is_refined) stack_.push_back(child);
+            remove(child);
+        }
+        gone += above.child_count;
+    }
+    CutRecord& record = cut_.at(id);
+    record.is_refined = false;
+    hash_ += cluster_hash(id);
+    count_triangles(record, 1);
+    offer(record);
+    jump_px_ = std::max(jump_px_, record.error_px);
+    return gone;
+}
+
+lod::Step ClusterFront::coarsen(double limit_px) {
+    if (coarsen_error_px() > limit_px) return {};
+    const ClusterId id = cheapest_.top();
+    cheapest_.pop();
+    const uint64_t before = triangles_;
+    const uint32_t gone = take_back(id);
+    ++operations_[lod::OperationKind::kClusterCoarsen];
+    return {static_cast<int64_t>(triangles_ - before), gone};
+}
+
+}  // namespace objects

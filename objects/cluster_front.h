@@ -1,0 +1,96 @@
+// ClusterFront: the cut through a cluster tree that is drawn now, behind lod::Front; it follows the eye and the
+// schedule.
+//
+//     root            refined     its children stand for it
+//      +- cluster     active      stands for everything below: drawn when half of it is there and in view
+//      +- cluster     refined
+//          +- leaf    active
+//
+// Refining replaces an active cluster by its children; coarsening takes a refined one back with everything below it.
+// Any refined cluster may be taken back, not only one above the cut's end: what a whole branch costs is its own error.
+//
+// Time: a cluster's presence is a step function, so it is looked up again only when the schedule leaves the step it is
+// in, forwards, backwards or by a jump. What the eye sees is evaluated anew for the cut alone, some thousands of
+// records whatever the scene holds; when neither eye nor anything else has moved, not at all.
+//
+// Source: Semenov, Shutkin, Zolotov et al. (2020), section 2 and appendix 1. Differs from it in: a state between
+// frames, a budget, moving clusters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lod/front.h"
+#include "objects/cluster_cut.h"
+#include "objects/scene_view.h"
+
+namespace objects {
+
+class ClusterFront final : public lod::Front {
+  public:
+    /// @param tree   kept; at least a root
+    /// @param place  a rotation, orthonormal, and a finite origin
+    ClusterFront(ClusterTree tree, const ScenePlace& place);
+
+    /// @param time_s  of the schedule; any, clamped to [0, T]; NaN counts as 0
+    void begin_frame(std::span<const lod::View> views, double time_s) override;
+    double refine_error_px() override;
+    double coarsen_error_px() override;
+    lod::Step refine() override;
+    lod::Step coarsen(double limit_px) override;
+    uint64_t triangles() const override { return triangles_; }
+    double error_px() override;
+    double jump_px() const override { return jump_px_; }
+    lod::OperationCounts operations() const override { return operations_; }
+    uint64_t hash() const override { return hash_; }
+    lod::PoolRegion pool_need() const override;
+    void place(const lod::PoolRegion& region) override;
+    void emit(const lod::View& view, lod::DrawList& out) override;
+    uint64_t emitted_triangles() const override { return emitted_; }
+    std::string validate() const override;
+
+    const ClusterTree& tree() const { return tree_; }
+    /// The clusters that would be drawn now, in view of some eye and half there at least, ascending: what DISPLAY
+    /// makes, for comparison. @param drawn  cleared first
+    void drawn(std::vector<ClusterId>& drawn) const;
+    /// Presences looked up since construction.
+    uint64_t presence_lookups() const { return presence_lookups_; }
+    /// Sights evaluated since construction.
+    uint64_t evaluations() const { return evaluations_; }
+    /// Bytes beside the tree, in use.
+    uint64_t memory_bytes() const;
+
+  private:
+    static constexpr uint32_t kNoInstance = 0xffffffffu;
+
+    void look_up_presence(CutRecord& record);
+    void evaluate(CutRecord& record);
+    void count_triangles(const CutRecord& record, int64_t sign);
+    void add(ClusterId id);
+    void remove(ClusterId id);
+    void offer(const CutRecord& record);
+    uint32_t take_back(ClusterId id);
+    void emit_writes(lod::DrawList& out);
+    uint32_t instance_of(const Cluster& cluster, const lod::View& view, lod::DrawList& out);
+    void emit_cluster(ClusterId id, const lod::View& view, lod::DrawList& out);
+
+    ClusterTree tree_;
+    ScenePlace place_;
+    ClusterCut cut_;
+    CutQueue worst_{true}, cheapest_{false};
+
+    std::vector<lod::View> views_;  ///< of this frame
+    std::vector<SceneView> sights_;
+    double time_s_ = -1.0;
+    uint64_t triangles_ = 0, emitted_ = 0, hash_ = 0;
+    double jump_px_ = 0.0;
+    lod::OperationCounts operations_;
+    uint64_t presence_lookups_ = 0, evaluations_ = 0;
+    std::vector<ClusterId> stack_;
+    uint32_t scene_instance_ = kNoInstance;  ///< scratch of emit: the scene frame's record in this view
+
+    lod::PoolRegion region_;
+    bool is_written_ = false;
+};
+
+}  // namespace objects

@@ -1,0 +1,120 @@
+// What ClusterFront hands to the renderer, and its proof.
+#include <algorithm>
+
+#include "lod/base/check.h"
+#include "objects/cluster_front.h"
+
+namespace objects {
+
+lod::PoolRegion ClusterFront::pool_need() const {
+    return {0, static_cast<uint32_t>(tree_.vertices.size()), 0, static_cast<uint32_t>(tree_.indices.size())};
+}
+
+void ClusterFront::place(const lod::PoolRegion& region) {
+    CHECK(region.vertex_capacity >= tree_.vertices.size() && region.index_capacity >= tree_.indices.size());
+    region_ = region;
+    is_written_ = false;
+}
+
+void ClusterFront::emit_writes(lod::DrawList& out) {
+    if (is_written_ || tree_.vertices.empty()) return;
+    out.vertex_writes.push_back({region_.first_vertex, tree_.vertices});
+    if (!tree_.indices.empty()) out.index_writes.push_back({region_.first_index, tree_.indices});
+    is_written_ = true;
+}
+
+/// The record of the geometry's own frame; the scene's is shared by all that lie in it.
+uint32_t ClusterFront::instance_of(const Cluster& cluster, const lod::View& view, lod::DrawList& out) {
+    const bool is_scene = cluster.motion == kSceneFrame;
+    if (is_scene && scene_instance_ != kNoInstance) return scene_instance_;
+    const data::ObjectPose pose = pose_of(tree_, cluster, time_s_);
+    out.instances.push_back(lod::make_instance(
+        view.eye_world, view.eye_from_world, place_.origin_world + place_.world_from_scene * pose.position,
+        place_.world_from_scene * glm::mat3_cast(pose.rotation), lod::Module::kObjects));
+    const auto index = static_cast<uint32_t>(out.instances.size() - 1);
+    if (is_scene) scene_instance_ = index;
+    return index;
+}
+
+void ClusterFront::emit_cluster(ClusterId id, const lod::View& view, lod::DrawList& out) {
+    const Cluster& cluster = tree_.clusters[id];
+    if (cluster.geometry == kNoGeometry) return;
+    const ClusterGeometry& geometry = tree_.geometries[cluster.geometry];
+    if (geometry.index_count == 0) return;
+    const uint32_t instance = instance_of(cluster, view, out);
+    const uint32_t first = region_.first_index + geometry.first_index;
+    const auto base = static_cast<int32_t>(region_.first_vertex + geometry.first_vertex);
+    const uint32_t opaque = geometry.index_count - geometry.glass_index_count;
+    if (opaque > 0) out.items.push_back({opaque, first, base, instance, false});
+    if (geometry.glass_index_count > 0)
+        out.items.push_back({geometry.glass_index_count, first + opaque, base, instance, true});
+    emitted_ += geometry.index_count / 3;
+}
+
+void ClusterFront::emit(const lod::View& view, lod::DrawList& out) {
+    emit_writes(out);
+    emitted_ = 0;
+    scene_instance_ = kNoInstance;
+    const SceneView sight(view, place_);
+    const bool is_only_eye = views_.size() == 1;
+    for (const CutRecord& record : cut_) {
+        if (!record.is_drawn()) continue;
+        const Cluster& cluster = tree_.clusters[record.id];
+        if (!is_only_eye && !sight_of({&sight, 1}, sphere_at(tree_, cluster, time_s_), 0.0).is_seen) continue;
+        emit_cluster(record.id, view, out);
+    }
+}
+
+void ClusterFront::drawn(std::vector<ClusterId>& drawn) const {
+    drawn.clear();
+    for (const CutRecord& record : cut_) {
+        if (record.is_drawn() && tree_.clusters[record.id].geometry != kNoGeometry)
+            drawn.push_back(record.id);
+    }
+    std::sort(drawn.begin(), drawn.end());
+}
+
+uint64_t ClusterFront::memory_bytes() const {
+    return cut_.memory_bytes() + worst_.memory_bytes() + cheapest_.memory_bytes() +
+           stack_.capacity() * sizeof(ClusterId);
+}
+
+std::string ClusterFront::validate() const {
+    uint64_t triangles = 0, hash = 0, leaves = 0;
+    if (!cut_.holds(kRootCluster)) return "the root is not in the cut";
+    // Every way from the root must end at exactly one active cluster: walk them all.
+    std::vector<ClusterId> ways{kRootCluster};
+    size_t met = 0;
+    while (!ways.empty()) {
+        const ClusterId id = ways.back();
+        ways.pop_back();
+        if (!cut_.holds(id)) return "cluster " + std::to_string(id) + " is missing below a refined one";
+        ++met;
+        const CutRecord& record = cut_.at(id);
+        if (record.id != id)
+            return "cluster " + std::to_string(id) + " is filed as " + std::to_string(record.id);
+        const Cluster& cluster = tree_.clusters[id];
+        if (record.presence != visibility_at(tree_, cluster.visibility, std::max(time_s_, 0.0)))
+            return "presence of cluster " + std::to_string(id) + " is out of date";
+        if (record.is_refined) {
+            if (cluster.child_count == 0) return "leaf " + std::to_string(id) + " is refined";
+            for (uint32_t i = 0; i < cluster.child_count; ++i)
+                ways.push_back(cluster.first_child + i);
+            continue;
+        }
+        ++leaves;
+        hash += cluster_hash(id);
+        if (record.presence >= 0.5 && cluster.geometry != kNoGeometry)
+            triangles += tree_.geometries[cluster.geometry].index_count / 3;
+    }
+    if (met != cut_.size())
+        return std::to_string(cut_.size()) + " clusters are in the cut, " + std::to_string(met) +
+               " can be reached";
+    if (triangles != triangles_)
+        return std::to_string(triangles_) + " triangles are told, " + std::to_string(triangles) +
+               " are there";
+    if (hash != hash_) return "the hash of " + std::to_string(leaves) + " active clusters is out of date";
+    return {};
+}
+
+}  // namespace objects
