@@ -1,0 +1,10 @@
+// The people of the construction site: they come from their camp, walk to the tower, ride up and work storey by storey.
+#pragma once
+
+#include "data/scenes/scene_builder.h"
+
+namespace data::site {
+
+void add_crew(int count, SceneBuilder& builder);
+
+}  // namespace data::site
