@@ -119,7 +119,11 @@ class Renderer {
         bool close = false;
         double forward = 0, right = 0, up = 0;  ///< held keys, each in [-1, 1]
         double yaw = 0, pitch = 0, roll = 0;    ///< held keys and mouse motion, each in [-1, 1]
-        bool faster = false, slower = false, pause = false;
+        bool faster = false, slower = false;
+        // Once for each time the key goes down.
+        bool pause = false;
+        bool schedule_faster = false, schedule_slower = false, schedule_reverse = false;
+        bool schedule_begin = false, schedule_end = false;
     };
     Input poll_input();
 

@@ -67,7 +67,7 @@ Renderer::Input Window::poll() {
     const auto is_down = [this](int key) { return glfwGetKey(window_.get(), key) == GLFW_PRESS; };
     Renderer::Input input = input_of_keys(is_down);
     input.close = input.close || glfwWindowShouldClose(window_.get()) == GLFW_TRUE;
-    input.pause = input.pause && !std::exchange(was_pause_down_, input.pause);
+    take_edges(input, held_);
 
     double x_px = 0, y_px = 0;
     glfwGetCursorPos(window_.get(), &x_px, &y_px);

@@ -32,7 +32,7 @@ class Window {
 
     std::unique_ptr<GLFWwindow, Close> window_;
     double cursor_x_px_ = 0, cursor_y_px_ = 0;
-    bool was_pause_down_ = false;
+    Renderer::Input held_;  ///< at the last poll
 };
 
 }  // namespace render

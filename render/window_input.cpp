@@ -27,11 +27,18 @@ struct Switch {
     int key;
 };
 constexpr std::array kSwitches{
-    Switch{&Input::close, GLFW_KEY_ESCAPE},       Switch{&Input::pause, GLFW_KEY_SPACE},
+    Switch{&Input::close, GLFW_KEY_ESCAPE},          Switch{&Input::pause, GLFW_KEY_SPACE},
     Switch{&Input::faster, GLFW_KEY_EQUAL},  // the + key where it needs no shift to be found
-    Switch{&Input::faster, GLFW_KEY_KP_ADD},      Switch{&Input::slower, GLFW_KEY_MINUS},
-    Switch{&Input::slower, GLFW_KEY_KP_SUBTRACT},
+    Switch{&Input::faster, GLFW_KEY_KP_ADD},         Switch{&Input::slower, GLFW_KEY_MINUS},
+    Switch{&Input::slower, GLFW_KEY_KP_SUBTRACT},    Switch{&Input::schedule_faster, GLFW_KEY_PERIOD},
+    Switch{&Input::schedule_slower, GLFW_KEY_COMMA}, Switch{&Input::schedule_reverse, GLFW_KEY_R},
+    Switch{&Input::schedule_begin, GLFW_KEY_HOME},   Switch{&Input::schedule_end, GLFW_KEY_END},
 };
+
+/// What a held key says once.
+constexpr std::array kOnce{&Input::pause,           &Input::schedule_faster,
+                           &Input::schedule_slower, &Input::schedule_reverse,
+                           &Input::schedule_begin,  &Input::schedule_end};
 
 constexpr double kFullDeflection_px = 40.0;  ///< a drag this long in one poll is as much as a held key
 
@@ -46,6 +53,13 @@ Input input_of_keys(const std::function<bool(int)>& is_down) {
         input.*entry.value = input.*entry.value || is_down(entry.key);
     }
     return input;
+}
+
+void take_edges(Input& input, Input& before) {
+    const Input held = input;
+    for (bool Input::*once : kOnce)
+        input.*once = input.*once && !(before.*once);
+    before = held;
 }
 
 void add_drag(double x_px, double y_px, Input& input) {

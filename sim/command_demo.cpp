@@ -40,11 +40,13 @@ struct Flight {
     double begin_s = 0.0;
 };
 
-lod::Result<Flight> fly(Stage& stage, const std::string& scene) {
+lod::Result<Flight> fly(Stage& stage, const std::string& scene, const ScheduleArguments& schedule) {
     LoopOptions options;
     options.rate_hz = kRate_hz;
     options.frames = static_cast<int64_t>(kFlight_s * kRate_hz);
     options.begin_s = stage.world->scene.start.time_s.value_or(stage.world->scene.time.begin_s);
+    options.schedule = schedule_at_begin(schedule, options.begin_s);
+    options.schedule_end_s = schedule_end_s(*stage.world);
     options.tolerance_px = kTolerance_px;
     say_progress(fmt::format("flying {} s at {} Hz, {} x {} pixels", kFlight_s, kRate_hz,
                              stage.optics.width_px, stage.optics.height_px));
@@ -59,9 +61,11 @@ lod::Result<Flight> fly(Stage& stage, const std::string& scene) {
 }
 
 /// One converged picture a sight; returns a line about each.
-lod::Result<std::string> take_pictures(Stage& stage, const fs::path& out, double middle_s) {
+/// @param middle_s  of the flight; @param seek_s what the schedule is at then
+lod::Result<std::string> take_pictures(Stage& stage, const fs::path& out, double middle_s, double seek_s) {
     std::string lines;
-    for (const Sight& sight : find_sights(*stage.world, middle_s)) {
+    for (Sight& sight : find_sights(*stage.world, middle_s)) {
+        sight.shot.schedule_s = seek_s;
         Allowance allowance;
         allowance.budget.tolerance_px = kTolerance_px;
         allowance.deadline = lod::operation_limit(UINT64_MAX);
@@ -97,6 +101,7 @@ void add_demo(CLI::App& app, DemoArguments& arguments) {
     app.add_option("--out", arguments.out, "folder for report and pictures")
         ->type_name("DIR")
         ->capture_default_str();
+    add_schedule(app, arguments.schedule);
     add_threads(app, arguments.threads);
 }
 
@@ -118,14 +123,16 @@ lod::Result<lod::Ok> run_demo(const DemoArguments& arguments) {
     {
         auto stage = make_stage(std::move(*world), kFlightOptics, false);
         if (!stage) return stage.error();
-        flight = fly(*stage, *file);
+        flight = fly(*stage, *file, arguments.schedule);
         flown = std::move(stage->world);
     }  // one renderer at a time
     if (!flight) return flight.error();
     auto stage = make_stage(std::move(flown), kStillOptics, false);
     if (!stage) return stage.error();
     const fs::path out(arguments.out);
-    const auto pictures = take_pictures(*stage, out, flight->begin_s + kFlight_s / 2.0);
+    const double seek_s = schedule_s(schedule_at_begin(arguments.schedule, flight->begin_s),
+                                     static_cast<int64_t>(kFlight_s / 2.0 * 1e9));
+    const auto pictures = take_pictures(*stage, out, flight->begin_s + kFlight_s / 2.0, seek_s);
     if (!pictures) return pictures.error();
 
     const std::string summary = summary_of(*flight, *pictures, out);

@@ -5,12 +5,14 @@
 #include <string>
 
 #include "lod/base/result.h"
+#include "sim/schedule_options.h"
 
 namespace sim {
 
 struct DemoArguments {
     std::string scene;        ///< empty: the bundled one
     std::string out = "out";  ///< folder
+    ScheduleArguments schedule;
     unsigned threads = 2;
 };
 

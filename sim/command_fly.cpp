@@ -79,6 +79,7 @@ void add_fly(CLI::App& app, FlyArguments& arguments) {
     app.add_option("--time", arguments.time_s, "simulation time of the first frame, s; default: the scene's")
         ->check(CLI::Range(-1e9, 4e9))
         ->type_name("T0");
+    add_schedule(app, arguments.schedule);
     app.add_option("--triangles", arguments.triangles,
                    "most triangles of geometry that adapts; default: what the rate "
                    "allows, or 40000 with --ops")
@@ -143,6 +144,8 @@ lod::Result<lod::Ok> run_fly(const FlyArguments& arguments) {
     if (!world) return world.error();
     options.begin_s = arguments.time_s.value_or(scene->start.time_s.value_or(scene->time.begin_s));
     options.frames = frame_count(arguments, **world, options.begin_s);
+    options.schedule = schedule_at_begin(arguments.schedule, options.begin_s);
+    options.schedule_end_s = schedule_end_s(**world);
 
     const Optics optics{scene->start.fov_y_rad, arguments.size.width_px, arguments.size.height_px};
     auto stage = make_stage(std::move(*world), optics, arguments.window);

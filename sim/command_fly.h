@@ -8,6 +8,7 @@
 #include "lod/base/result.h"
 #include "sim/command_values.h"
 #include "sim/frame_loop.h"
+#include "sim/schedule_options.h"
 #include "sim/world.h"
 
 namespace sim {
@@ -19,6 +20,7 @@ struct FlyArguments {
     Size size;
     std::string trajectory;
     std::optional<double> time_s;
+    ScheduleArguments schedule;
     std::optional<uint64_t> triangles;
     double tolerance_px = 1.0;
     double glide_s = WorldOptions{}.glide_s;

@@ -131,7 +131,7 @@ lod::Result<lod::Ok> run_still(const StillArguments& arguments) {
     auto stage = make_stage(std::move(*world), optics, false);
     if (!stage) return stage.error();
     Shot shot;
-    shot.time_s = still_time_s(arguments, *scene);
+    shot.time_s = shot.schedule_s = shot.shown_s = still_time_s(arguments, *scene);
     shot.state = still_state(arguments, *stage->world, shot.time_s);
     const auto record = make_frame(*stage, shot, still_allowance(arguments));
     if (!record) return record.error();

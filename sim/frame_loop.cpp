@@ -26,12 +26,13 @@ struct Loop {
     BudgetController controller;
     double rest_ms = 0.0;  ///< expected time of a frame without refinement
     Pilot pilot;
+    Schedule schedule;
 
     double period_ms() const { return 1e3 / options.rate_hz; }
 };
 
 Loop make_loop(const LoopOptions& options) {
-    Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}};
+    Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}, options.schedule};
     loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
     loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
     loop.controller.target.min_triangles = std::min<uint64_t>(5000, loop.controller.target.max_triangles);
@@ -69,22 +70,32 @@ void learn(Loop& loop, const FrameRecord& record) {
 }
 
 lod::Result<lod::Ok> warm_up(Loop& loop, Stage& stage) {
-    const EyeState state = pose_at(stage.world->eyepoint, loop.options.begin_s);
+    const double begin_s = loop.options.begin_s;
+    const Shot shot{
+        pose_at(stage.world->eyepoint, begin_s), {}, begin_s, schedule_s(loop.schedule, 0), begin_s};
     for (int i = 0; i < kWarmUpFrames; ++i) {
         Allowance allowance = allowance_of(loop, 0);
         allowance.deadline = time_limit(2.0 * loop.period_ms());
-        auto record = make_frame(stage, {state, {}, loop.options.begin_s}, allowance);
+        auto record = make_frame(stage, shot, allowance);
         if (!record) return record.error();
         if (i >= kWarmUpFrames / 2) learn(loop, *record);  // the first ones pay for uploads and caches
     }
     return lod::Ok{};
 }
 
-/// The pose of simulation frame `frame`: the pilot's when one has taken over.
-EyeState next_state(Loop& loop, Stage& stage, double time_s) {
-    const EyeState path_state = pose_at(stage.world->eyepoint, time_s);
-    steer(loop.pilot, stage.renderer.poll_input(), *stage.world, path_state, 1.0 / loop.options.rate_hz);
-    return loop.pilot.is_free ? loop.pilot.state : path_state;
+/// What frame `frame` shows, `step` steps into the flight: the path, or the pilot who has taken over.
+Shot next_shot(Loop& loop, Stage& stage, int64_t frame, int64_t step) {
+    const double now_s = time_s(loop.clock, step);
+    const int64_t elapsed_ns = since_begin_ns(loop.clock, step);
+    const render::Renderer::Input input = stage.renderer.poll_input();
+    const EyeState path_state = pose_at(stage.world->eyepoint, now_s);
+    steer(loop.pilot, input, *stage.world, path_state, 1.0 / loop.options.rate_hz);
+    steer(loop.schedule, input, elapsed_ns, 0.0, loop.options.schedule_end_s);
+    return {loop.pilot.is_free ? loop.pilot.state : path_state,
+            {},
+            now_s,
+            schedule_s(loop.schedule, elapsed_ns),
+            time_s(loop.clock, frame)};
 }
 
 }  // namespace
@@ -111,9 +122,7 @@ lod::Result<std::vector<FrameRecord>> run_loop(Stage& stage, const LoopOptions& 
             std::this_thread::sleep_until(begin +
                                           std::chrono::nanoseconds(since_begin_ns(loop.clock, frame)));
         }
-        const double now_s = time_s(loop.clock, step);
-        const EyeState state = next_state(loop, stage, now_s);
-        auto record = make_frame(stage, {state, {}, now_s}, allowance_of(loop, frame));
+        auto record = make_frame(stage, next_shot(loop, stage, frame, step), allowance_of(loop, frame));
         if (!record) return record.error();
         record->missed = record->total_ms > loop.period_ms();
         if (is_real_time) learn(loop, *record);

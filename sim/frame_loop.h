@@ -16,14 +16,17 @@
 
 #include "lod/base/result.h"
 #include "sim/frame_report.h"
+#include "sim/schedule.h"
 #include "sim/stage.h"
 
 namespace sim {
 
 struct LoopOptions {
-    int64_t frames = 600;   ///< at most this many
-    double rate_hz = 60.0;  ///< in [0.001, 1,000,000]
-    double begin_s = 0.0;   ///< simulation time of frame 0
+    int64_t frames = 600;         ///< at most this many
+    double rate_hz = 60.0;        ///< in [0.001, 1,000,000]
+    double begin_s = 0.0;         ///< simulation time of frame 0
+    Schedule schedule;            ///< at frame 0
+    double schedule_end_s = 0.0;  ///< where the key for the schedule's end leads
     double tolerance_px = 1.0;
     std::optional<uint64_t> triangles;   ///< limit of the adaptive fronts; without: the controller's
     std::optional<uint64_t> operations;  ///< per frame: the deterministic mode

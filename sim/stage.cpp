@@ -197,8 +197,8 @@ lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowa
     const lod::View view = view_of(world, stage.optics, shot.state, shot.head);
     const glm::dvec3 up_world = world.frame.world_from_enu(view.eye_world)[2];
     move_instruments(world, shot);
-    for (lod::Front* front : stage.fronts)
-        front->begin_frame({&view, 1}, shot.time_s);
+    for (const WorldFront& member : stage.members)
+        member.front->begin_frame({&view, 1}, member.follows_schedule ? shot.schedule_s : shot.shown_s);
     record.update_ms = total.ms();
 
     const Stopwatch refine;

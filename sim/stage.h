@@ -35,7 +35,9 @@ struct HeadPose {
 struct Shot {
     EyeState state;
     HeadPose head;
-    double time_s = 0.0;
+    double time_s = 0.0;      ///< of the flight: signals
+    double schedule_s = 0.0;  ///< of what appears, disappears and moves (schedule.h)
+    double shown_s = 0.0;     ///< as whoever looks on has passed it: what glides, glides in it
 };
 
 /// What it may spend.

@@ -235,9 +235,12 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
 
 std::vector<WorldFront> fronts_of(const World& world) {
     std::vector<WorldFront> fronts;
-    if (world.terrain) fronts.push_back({world.terrain.get(), lod::Module::kTerrain, true});
-    if (world.objects) fronts.push_back({world.objects.get(), lod::Module::kObjects, false});
-    if (world.instruments) fronts.push_back({world.instruments.get(), lod::Module::kInstruments, false});
+    if (world.terrain) fronts.push_back({world.terrain.get(), lod::Module::kTerrain, true, false});
+    if (world.objects) fronts.push_back({world.objects.get(), lod::Module::kObjects, false, false});
+    for (const auto& site : world.sites)
+        fronts.push_back({site.get(), lod::Module::kObjects, true, true});
+    if (world.instruments)
+        fronts.push_back({world.instruments.get(), lod::Module::kInstruments, false, false});
     return fronts;
 }
 

@@ -11,6 +11,7 @@
 #include "data/image.h"
 #include "lod/base/result.h"
 #include "lod/rigid_front.h"
+#include "objects/cluster_front.h"
 #include "render/renderer.h"
 #include "sim/eyepoint.h"
 #include "sim/model_pose.h"
@@ -47,6 +48,7 @@ struct World {
         1;  ///< the drawn terrain has this many samples to one of `ground`'s (paged_terrain.h)
     std::unique_ptr<lod::Front> terrain;
     std::unique_ptr<lod::RigidFront> objects;
+    std::vector<std::unique_ptr<objects::ClusterFront>> sites;  ///< of [[objects]], as the scene lists them
     std::unique_ptr<lod::RigidFront> instruments;
     Cockpit cockpit;
     Eyepoint eyepoint;
@@ -65,7 +67,8 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
 struct WorldFront {
     lod::Front* front = nullptr;
     lod::Module module = lod::Module::kTerrain;
-    bool adapts = false;  ///< false: what it draws is no matter of the budget
+    bool adapts = false;            ///< false: what it draws is no matter of the budget
+    bool follows_schedule = false;  ///< its time is the schedule's
 };
 
 /// The fronts there are, in the order of lod::Module.

@@ -32,6 +32,8 @@ TEST(WindowInput, KeysMeanWhatTheHeaderSays) {
     EXPECT_EQ(input_of({GLFW_KEY_Q}).roll, -1.0);
     EXPECT_TRUE(input_of({GLFW_KEY_ESCAPE}).close);
     EXPECT_TRUE(input_of({GLFW_KEY_SPACE}).pause);
+    EXPECT_TRUE(input_of({GLFW_KEY_R}).schedule_reverse);
+    EXPECT_TRUE(input_of({GLFW_KEY_HOME}).schedule_begin);
     EXPECT_TRUE(input_of({GLFW_KEY_EQUAL}).faster && input_of({GLFW_KEY_KP_ADD}).faster);
     EXPECT_TRUE(input_of({GLFW_KEY_MINUS}).slower && input_of({GLFW_KEY_KP_SUBTRACT}).slower);
     EXPECT_EQ(input_of({GLFW_KEY_W, GLFW_KEY_S}).forward, 0.0) << "opposite keys cancel";
