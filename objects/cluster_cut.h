@@ -5,20 +5,19 @@
 #include <vector>
 
 #include "lod/base/hash.h"
-#include "objects/cluster_tree.h"
+#include "objects/presence.h"
 
 namespace objects {
 
 /// A cluster of the cut, or above it. 56 bytes.
 struct CutRecord {
     ClusterId id = kNoCluster;
-    bool is_refined = false;            ///< its children stand for it
-    bool is_seen = false;               ///< in view of some eye, by its sphere
-    double presence = 0.0;              ///< v_c now, 0 … 1
-    double begin_s = 0.0, end_s = 0.0;  ///< presence holds from begin_s, included, to end_s, excluded
-    double error_px = 0.0;  ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
+    bool is_refined = false;  ///< its children stand for it
+    bool is_seen = false;     ///< in view of some eye, by its sphere
+    Presence presence;        ///< v_c now
+    double error_px = 0.0;    ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
 
-    bool is_drawn() const { return !is_refined && is_seen && presence >= 0.5; }
+    bool is_drawn() const { return !is_refined && is_seen && presence.share >= 0.5; }
 };
 
 /// An active cluster's part in a cut's hash, which is the sum: no order shows.

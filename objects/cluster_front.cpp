@@ -8,8 +8,6 @@
 namespace objects {
 namespace {
 
-constexpr double kForEver_s = std::numeric_limits<double>::infinity();
-
 bool is_same(const lod::View& a, const lod::View& b) {
     return a.eye_world == b.eye_world && a.eye_from_world == b.eye_from_world && a.fov_y_rad == b.fov_y_rad &&
            a.width_px == b.width_px && a.height_px == b.height_px && a.near_m == b.near_m;
@@ -27,32 +25,26 @@ ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
     add(kRootCluster);
 }
 
-/// Where on its step function the cluster is.
 void ClusterFront::look_up_presence(CutRecord& record) {
     ++presence_lookups_;
-    const uint32_t visibility = tree_.clusters[record.id].visibility;
-    const uint32_t step = step_at(tree_, visibility, time_s_);
-    const data::IndexRange range = tree_.visibilities[visibility];
-    record.presence = tree_.step_value[step];
-    record.begin_s = step == range.begin ? -kForEver_s : tree_.step_time_s[step];
-    record.end_s = step + 1 == range.end ? kForEver_s : tree_.step_time_s[step + 1];
+    record.presence = presence_at(tree_, tree_.clusters[record.id].visibility, time_s_);
 }
 
 void ClusterFront::evaluate(CutRecord& record) {
     record.is_seen = false;
     record.error_px = 0.0;
-    if (record.presence <= 0.0 || sights_.empty()) return;
+    if (record.presence.share <= 0.0 || sights_.empty()) return;
     ++evaluations_;
     const Cluster& cluster = tree_.clusters[record.id];
     const ClusterSight sight =
-        sight_of(sights_, sphere_at(tree_, cluster, time_s_), timed_error_m(cluster, record.presence));
+        sight_of(sights_, sphere_at(tree_, cluster, time_s_), timed_error_m(cluster, record.presence.share));
     record.is_seen = sight.is_seen;
     record.error_px = sight.error_px;
 }
 
 void ClusterFront::count_triangles(const CutRecord& record, int64_t sign) {
     const uint32_t geometry = tree_.clusters[record.id].geometry;
-    if (record.is_refined || record.presence < 0.5 || geometry == kNoGeometry) return;
+    if (record.is_refined || record.presence.share < 0.5 || geometry == kNoGeometry) return;
     triangles_ += static_cast<uint64_t>(sign * int64_t(tree_.geometries[geometry].index_count / 3));
 }
 
@@ -84,7 +76,7 @@ void ClusterFront::remove(ClusterId id) {
 void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
     jump_px_ = 0.0;
-    const double time = time_s > 0.0 ? std::min(time_s, tree_.end_s) : 0.0;  // NaN is not above 0
+    const double time = clamped_time(tree_, time_s);
     const bool is_new_time = time != time_s_;
     const bool is_new_view = !are_same(views, views_);
     if (!is_new_time && !is_new_view) return;
@@ -98,7 +90,7 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     worst_.clear();
     cheapest_.clear();
     for (CutRecord& record : cut_) {
-        const bool has_event = time < record.begin_s || time >= record.end_s;
+        const bool has_event = !record.presence.holds_at(time);
         if (has_event) {
             count_triangles(record, -1);
             look_up_presence(record);

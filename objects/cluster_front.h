@@ -61,8 +61,6 @@ class ClusterFront final : public lod::Front {
     uint64_t memory_bytes() const;
 
   private:
-    static constexpr uint32_t kNoInstance = 0xffffffffu;
-
     void look_up_presence(CutRecord& record);
     void evaluate(CutRecord& record);
     void count_triangles(const CutRecord& record, int64_t sign);
@@ -71,8 +69,6 @@ class ClusterFront final : public lod::Front {
     void offer(const CutRecord& record);
     uint32_t take_back(ClusterId id);
     void emit_writes(lod::DrawList& out);
-    uint32_t instance_of(const Cluster& cluster, const lod::View& view, lod::DrawList& out);
-    void emit_cluster(ClusterId id, const lod::View& view, lod::DrawList& out);
 
     ClusterTree tree_;
     ScenePlace place_;
@@ -87,7 +83,6 @@ class ClusterFront final : public lod::Front {
     lod::OperationCounts operations_;
     uint64_t presence_lookups_ = 0, evaluations_ = 0;
     std::vector<ClusterId> stack_;
-    uint32_t scene_instance_ = kNoInstance;  ///< scratch of emit: the scene frame's record in this view
 
     lod::PoolRegion region_;
     bool is_written_ = false;

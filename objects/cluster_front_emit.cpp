@@ -3,6 +3,7 @@
 
 #include "lod/base/check.h"
 #include "objects/cluster_front.h"
+#include "objects/cluster_items.h"
 
 namespace objects {
 
@@ -23,46 +24,18 @@ void ClusterFront::emit_writes(lod::DrawList& out) {
     is_written_ = true;
 }
 
-/// The record of the geometry's own frame; the scene's is shared by all that lie in it.
-uint32_t ClusterFront::instance_of(const Cluster& cluster, const lod::View& view, lod::DrawList& out) {
-    const bool is_scene = cluster.motion == kSceneFrame;
-    if (is_scene && scene_instance_ != kNoInstance) return scene_instance_;
-    const data::ObjectPose pose = pose_of(tree_, cluster, time_s_);
-    out.instances.push_back(lod::make_instance(
-        view.eye_world, view.eye_from_world, place_.origin_world + place_.world_from_scene * pose.position,
-        place_.world_from_scene * glm::mat3_cast(pose.rotation), lod::Module::kObjects));
-    const auto index = static_cast<uint32_t>(out.instances.size() - 1);
-    if (is_scene) scene_instance_ = index;
-    return index;
-}
-
-void ClusterFront::emit_cluster(ClusterId id, const lod::View& view, lod::DrawList& out) {
-    const Cluster& cluster = tree_.clusters[id];
-    if (cluster.geometry == kNoGeometry) return;
-    const ClusterGeometry& geometry = tree_.geometries[cluster.geometry];
-    if (geometry.index_count == 0) return;
-    const uint32_t instance = instance_of(cluster, view, out);
-    const uint32_t first = region_.first_index + geometry.first_index;
-    const auto base = static_cast<int32_t>(region_.first_vertex + geometry.first_vertex);
-    const uint32_t opaque = geometry.index_count - geometry.glass_index_count;
-    if (opaque > 0) out.items.push_back({opaque, first, base, instance, false});
-    if (geometry.glass_index_count > 0)
-        out.items.push_back({geometry.glass_index_count, first + opaque, base, instance, true});
-    emitted_ += geometry.index_count / 3;
-}
-
 void ClusterFront::emit(const lod::View& view, lod::DrawList& out) {
     emit_writes(out);
-    emitted_ = 0;
-    scene_instance_ = kNoInstance;
+    ClusterItems items(tree_, place_, region_, view, time_s_);
     const SceneView sight(view, place_);
     const bool is_only_eye = views_.size() == 1;
     for (const CutRecord& record : cut_) {
         if (!record.is_drawn()) continue;
         const Cluster& cluster = tree_.clusters[record.id];
         if (!is_only_eye && !sight_of({&sight, 1}, sphere_at(tree_, cluster, time_s_), 0.0).is_seen) continue;
-        emit_cluster(record.id, view, out);
+        items.add(record.id, out);
     }
+    emitted_ = items.triangles();
 }
 
 void ClusterFront::drawn(std::vector<ClusterId>& drawn) const {
@@ -94,7 +67,7 @@ std::string ClusterFront::validate() const {
         if (record.id != id)
             return "cluster " + std::to_string(id) + " is filed as " + std::to_string(record.id);
         const Cluster& cluster = tree_.clusters[id];
-        if (record.presence != visibility_at(tree_, cluster.visibility, std::max(time_s_, 0.0)))
+        if (record.presence.share != visibility_at(tree_, cluster.visibility, std::max(time_s_, 0.0)))
             return "presence of cluster " + std::to_string(id) + " is out of date";
         if (record.is_refined) {
             if (cluster.child_count == 0) return "leaf " + std::to_string(id) + " is refined";
@@ -104,7 +77,7 @@ std::string ClusterFront::validate() const {
         }
         ++leaves;
         hash += cluster_hash(id);
-        if (record.presence >= 0.5 && cluster.geometry != kNoGeometry)
+        if (record.presence.share >= 0.5 && cluster.geometry != kNoGeometry)
             triangles += tree_.geometries[cluster.geometry].index_count / 3;
     }
     if (met != cut_.size())
