@@ -214,6 +214,7 @@ lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshS
                              model->missing_libraries.end());
     const MeshReader reader{*model->scene, traits, materials, baking_of(materials), model->node_shifts};
     PolygonMesh mesh;
+    if (traits.is_y_up) mesh.file_from_model = glm::transpose(z_up_from_y_up());
     append_nodes(reader, *model->scene->mRootNode, -1, mesh, met);
     if (mesh.triangle_count() == 0)
         return lod::Error{path + ": not a single triangle; expected a polygon model"};

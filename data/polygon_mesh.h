@@ -40,7 +40,8 @@ struct MeshNode {
 };
 
 struct PolygonMesh {
-    std::vector<MeshNode> nodes;  ///< parents before children
+    glm::dmat4 file_from_model{1.0};  ///< back from z up to the file's own axes
+    std::vector<MeshNode> nodes;      ///< parents before children
     std::vector<MeshMaterial> materials;
     std::vector<MeshTexture> textures;
 

@@ -7,6 +7,7 @@
 #include "sim/command_compare.h"
 #include "sim/command_demo.h"
 #include "sim/command_fly.h"
+#include "sim/command_mesh.h"
 #include "sim/command_query.h"
 #include "sim/command_still.h"
 #include "sim/command_terrain.h"
@@ -41,6 +42,9 @@ int main(int count, char** words) {
     sim::BuildArguments build;
     sim::QueryArguments query;
     sim::CompareArguments compare;
+    sim::MeshBuildArguments mesh_build;
+    sim::MeshExtractArguments mesh_extract;
+    sim::MeshInspectArguments mesh_inspect;
     CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
     CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
     CLI::App& still_app = *app.add_subcommand("still", "one picture, converged unless a budget is given");
@@ -52,6 +56,11 @@ int main(int count, char** words) {
     CLI::App& query_app = *terrain_app.add_subcommand("query", "heights of the ground and lines of sight");
     CLI::App& compare_app =
         *terrain_app.add_subcommand("compare", "ROAM and other methods at equal measured errors");
+    CLI::App& mesh_app =
+        *app.add_subcommand("mesh", "progressive meshes of instruments")->require_subcommand(1);
+    CLI::App& mesh_build_app = *mesh_app.add_subcommand("build", "a progressive mesh with proved errors");
+    CLI::App& mesh_extract_app = *mesh_app.add_subcommand("extract", "a static mesh of a size or error");
+    CLI::App& mesh_inspect_app = *mesh_app.add_subcommand("inspect", "what a progressive mesh holds");
     sim::add_demo(demo_app, demo);
     sim::add_fly(fly_app, fly);
     sim::add_still(still_app, still);
@@ -59,6 +68,9 @@ int main(int count, char** words) {
     sim::add_build(build_app, build);
     sim::add_query(query_app, query);
     sim::add_compare(compare_app, compare);
+    sim::add_mesh_build(mesh_build_app, mesh_build);
+    sim::add_mesh_extract(mesh_extract_app, mesh_extract);
+    sim::add_mesh_inspect(mesh_inspect_app, mesh_inspect);
 
     const auto command = [&]() -> lod::Result<lod::Ok> {
         if (demo_app.parsed()) return sim::run_demo(demo);
@@ -67,6 +79,9 @@ int main(int count, char** words) {
         if (build_app.parsed()) return sim::run_build(build);
         if (query_app.parsed()) return sim::run_query(query);
         if (compare_app.parsed()) return sim::run_compare(compare);
+        if (mesh_build_app.parsed()) return sim::run_mesh_build(mesh_build);
+        if (mesh_extract_app.parsed()) return sim::run_mesh_extract(mesh_extract);
+        if (mesh_inspect_app.parsed()) return sim::run_mesh_inspect(mesh_inspect);
         return sim::run_extract(extract);
     };
     return run(app, command, count, words);

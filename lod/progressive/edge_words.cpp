@@ -1,0 +1,81 @@
+#include "lod/progressive/edge_words.h"
+
+#include <algorithm>
+
+namespace lod {
+namespace {
+
+/// Cancels inverse pairs, also across the ends.
+void reduce_loop(const CoarseMesh& mesh, Word& loop) {
+    Word reduced;
+    for (CornerId letter : loop) {
+        if (!reduced.empty() && reduced.back() == mesh.mate(letter)) {
+            reduced.pop_back();
+        } else {
+            reduced.push_back(letter);
+        }
+    }
+    size_t begin = 0, end = reduced.size();
+    while (end - begin >= 2 && reduced[begin] == mesh.mate(reduced[end - 1])) {
+        ++begin;
+        --end;
+    }
+    loop.assign(reduced.begin() + static_cast<std::ptrdiff_t>(begin),
+                reduced.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// The node round which a letter goes: on its left when counter-clockwise.
+NodeId pivot(const CoarseMesh& mesh, CornerId letter, bool is_ccw) {
+    return is_ccw ? mesh.head(letter) : mesh.node(letter);
+}
+
+/// Sends the longest run round `node` the other way, when that is shorter. Leaves the run at the loop's front.
+bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop) {
+    Fan fan;
+    mesh.fan_at(corner, fan);
+    const size_t around = fan.corners.size();
+    if (!fan.is_closed) return false;
+    for (const bool is_ccw : {true, false}) {
+        const auto turns = [&](CornerId letter) { return pivot(mesh, letter, is_ccw) == node; };
+        const auto stop = std::find_if_not(loop.begin(), loop.end(), turns);
+        std::rotate(loop.begin(), stop == loop.end() ? loop.begin() : stop, loop.end());
+        for (size_t begin = 0, end = 0; begin < loop.size(); begin = std::max(end, begin + 1)) {
+            end = begin;
+            while (end < loop.size() && end - begin < around && turns(loop[end]))
+                ++end;
+            if (2 * (end - begin) <= around) continue;
+            std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin), loop.end());
+            const size_t run = end - begin;
+            // From the triangle before the run to the one behind it, round the other side.
+            const CornerId first = is_ccw ? next_corner(loop[0]) : loop[0];
+            const auto at = std::find(fan.corners.begin(), fan.corners.end(), first);
+            if (at == fan.corners.end()) return false;
+            const auto from = static_cast<size_t>(at - fan.corners.begin());
+            const size_t to = is_ccw ? (from + run) % around : (from + around - run) % around;
+            Word other;
+            if (run != around)
+                walk_fan(fan, from, to, !is_ccw, [&](CornerId letter) { other.push_back(letter); });
+            loop.erase(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(run));
+            loop.insert(loop.begin(), other.begin(), other.end());
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+bool is_fillable(const CoarseMesh& mesh, Word loop, std::span<const NodeId> pierced,
+                 std::span<const CornerId> corner_of_node) {
+    reduce_loop(mesh, loop);
+    while (!loop.empty()) {
+        const bool is_shorter = std::any_of(pierced.begin(), pierced.end(), [&](NodeId node) {
+            return shorten_round(mesh, node, corner_of_node[node], loop);
+        });
+        if (!is_shorter) return false;
+        reduce_loop(mesh, loop);
+    }
+    return true;
+}
+
+}  // namespace lod

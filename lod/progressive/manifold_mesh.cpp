@@ -1,0 +1,333 @@
+#include "lod/progressive/manifold_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "lod/base/hash.h"
+#include "lod/progressive/weld.h"
+
+namespace lod {
+namespace {
+
+using Corners = std::array<uint32_t, 3>;
+constexpr uint32_t kNone = 0xffffffffu;
+constexpr double kFoldCos =
+    -0.999;  // two triangles that lie on each other are a sheet's border, not its bend
+
+/// Triangles as places, with what of the input they came from.
+struct Faces {
+    std::vector<Corners> places;
+    std::vector<uint32_t> source;  ///< triangle of the input
+    std::vector<glm::dvec3> normal;
+};
+
+/// A set of numbers that joins; the least is its name.
+class UnionFind {
+  public:
+    explicit UnionFind(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    uint32_t find(uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(uint32_t a, uint32_t b) {
+        a = find(a), b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    std::vector<uint32_t> parent_;
+};
+
+Result<Ok> check_input(const SurfaceMesh& mesh) {
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3& p = mesh.positions[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return Error{"vertex " + std::to_string(i) +
+                         " has a coordinate that is no number; expected finite ones"};
+    }
+    for (const Corners& triangle : mesh.triangles) {
+        for (uint32_t corner : triangle) {
+            if (corner >= mesh.positions.size())
+                return Error{"a triangle names vertex " + std::to_string(corner) + "; expected one of " +
+                             std::to_string(mesh.positions.size())};
+        }
+    }
+    return Ok{};
+}
+
+struct CornersHash {
+    size_t operator()(const Corners& c) const {
+        return static_cast<size_t>(hash_combine(hash_combine(c[0], c[1]), c[2]));
+    }
+};
+
+Faces collect_faces(const SurfaceMesh& mesh, const std::vector<uint32_t>& place_of, MeshReport& report) {
+    Faces faces;
+    std::unordered_map<Corners, uint32_t, CornersHash> seen;
+    seen.reserve(mesh.triangles.size());
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        Corners c;
+        for (size_t k = 0; k < 3; ++k)
+            c[k] = place_of[mesh.triangles[t][k]];
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+            ++report.collapsed_faces;
+            continue;
+        }
+        Corners key = c;
+        std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+        if (!seen.emplace(key, t).second) {
+            ++report.duplicate_faces;
+            continue;
+        }
+        const glm::dvec3 a(mesh.positions[mesh.triangles[t][0]]);
+        const glm::dvec3 across = glm::cross(glm::dvec3(mesh.positions[mesh.triangles[t][1]]) - a,
+                                             glm::dvec3(mesh.positions[mesh.triangles[t][2]]) - a);
+        const double length = glm::length(across);
+        report.zero_area_faces += length > 0.0 ? 0u : 1u;
+        faces.places.push_back(c);
+        faces.source.push_back(t);
+        faces.normal.push_back(length > 0.0 ? across / length : glm::dvec3(0.0));
+    }
+    return faces;
+}
+
+/// A side of a triangle: corner 3 * face + k to the next one; `low` and `high` are its places.
+struct Side {
+    uint32_t low = 0, high = 0, corner = 0;
+    bool is_rising = false;  ///< runs from low to high
+};
+
+uint32_t next_corner(uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+std::vector<Side> sorted_sides(const Faces& faces) {
+    std::vector<Side> sides;
+    sides.reserve(3 * faces.places.size());
+    for (uint32_t corner = 0; corner < 3 * faces.places.size(); ++corner) {
+        const uint32_t from = faces.places[corner / 3][corner % 3];
+        const uint32_t next = next_corner(corner), to = faces.places[next / 3][next % 3];
+        sides.push_back({std::min(from, to), std::max(from, to), corner, from < to});
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+    });
+    return sides;
+}
+
+/// Joins the triangles at one edge in pairs that run opposite ways, the straightest continuation first.
+/// @param mates  [corners] the side's mate, kNone: a border
+void pair_sides(std::span<const Side> sides, const Faces& faces, std::vector<uint32_t>& mates) {
+    struct Pair {
+        double straightness;
+        uint32_t rising, falling;
+    };
+    std::vector<Pair> pairs;
+    for (const Side& rising : sides) {
+        for (const Side& falling : sides) {
+            if (!rising.is_rising || falling.is_rising) continue;
+            const double cosine = glm::dot(faces.normal[rising.corner / 3], faces.normal[falling.corner / 3]);
+            if (cosine > kFoldCos) pairs.push_back({cosine, rising.corner, falling.corner});
+        }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+        return std::tie(b.straightness, a.rising, a.falling) < std::tie(a.straightness, b.rising, b.falling);
+    });
+    for (const Pair& pair : pairs) {
+        if (mates[pair.rising] != kNone || mates[pair.falling] != kNone) continue;
+        mates[pair.rising] = pair.falling;
+        mates[pair.falling] = pair.rising;
+    }
+}
+
+struct Sheets {
+    std::vector<uint32_t> mates;           ///< [corners]
+    std::vector<uint8_t> is_place_locked;  ///< [places]
+};
+
+Sheets join_sheets(const Faces& faces, uint32_t places, MeshReport& report) {
+    Sheets sheets{std::vector<uint32_t>(3 * faces.places.size(), kNone), std::vector<uint8_t>(places, 0)};
+    const std::vector<Side> sides = sorted_sides(faces);
+    for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+        while (end < sides.size() && sides[end].low == sides[begin].low &&
+               sides[end].high == sides[begin].high)
+            ++end;
+        const std::span<const Side> edge(&sides[begin], end - begin);
+        pair_sides(edge, faces, sheets.mates);
+        size_t unpaired = 0;
+        for (const Side& side : edge)
+            unpaired += sheets.mates[side.corner] == kNone ? 1u : 0u;
+        report.border_edges += edge.size() == 1 ? 1u : 0u;
+        const bool is_folded = edge.size() == 2 && edge[0].is_rising != edge[1].is_rising;
+        if (edge.size() == 1 || is_folded) continue;
+        ++report.non_manifold_edges;
+        if (unpaired == 0) continue;
+        sheets.is_place_locked[edge[0].low] = sheets.is_place_locked[edge[0].high] = 1;
+    }
+    return sheets;
+}
+
+/// Gives corners their leaves: one for each place and sheet around it.
+std::vector<uint32_t> number_leaves(const std::vector<uint32_t>& mates) {
+    UnionFind fans(mates.size());
+    for (uint32_t corner = 0; corner < mates.size(); ++corner) {
+        if (mates[corner] == kNone) continue;
+        fans.join(corner, next_corner(mates[corner]));
+        fans.join(next_corner(corner), mates[corner]);
+    }
+    std::vector<uint32_t> leaf_of(mates.size()), name(mates.size(), kNone);
+    uint32_t leaves = 0;
+    for (uint32_t corner = 0; corner < leaf_of.size(); ++corner) {
+        uint32_t& leaf = name[fans.find(corner)];
+        if (leaf == kNone) leaf = leaves++;
+        leaf_of[corner] = leaf;
+    }
+    return leaf_of;
+}
+
+/// Frees the sides of a triangle and locks its places.
+void cut_out(uint32_t face, const Faces& faces, Sheets& sheets) {
+    for (uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
+        uint32_t& mate = sheets.mates[corner];
+        if (mate != kNone) sheets.mates[mate] = kNone;
+        mate = kNone;
+        sheets.is_place_locked[faces.places[face][corner % 3]] = 1;
+    }
+}
+
+/// Numbers the leaves; where a sheet meets itself along an edge, so that the same two leaves would share two edges,
+/// triangles are cut out until none do.
+std::vector<uint32_t> settle_leaves(const Faces& faces, Sheets& sheets) {
+    for (;;) {
+        std::vector<uint32_t> leaf_of = number_leaves(sheets.mates);
+        std::vector<std::array<uint32_t, 3>> sides;  // from, to, corner
+        for (uint32_t corner = 0; corner < leaf_of.size(); ++corner)
+            sides.push_back({leaf_of[corner], leaf_of[next_corner(corner)], corner});
+        std::sort(sides.begin(), sides.end());
+        bool is_settled = true;
+        for (size_t i = 1; i < sides.size(); ++i) {
+            if (sides[i][0] != sides[i - 1][0] || sides[i][1] != sides[i - 1][1]) continue;
+            cut_out(sides[i][2] / 3, faces, sheets);
+            is_settled = false;
+        }
+        if (is_settled) return leaf_of;
+    }
+}
+
+void count_sheets(const Faces& faces, const Sheets& sheets, std::span<const uint32_t> leaf_of,
+                  MeshReport& report) {
+    std::vector<uint8_t> is_seen(leaf_of.size(), 0);
+    std::vector<uint32_t> sheets_at(sheets.is_place_locked.size(), 0);
+    UnionFind parts(faces.places.size());
+    for (uint32_t corner = 0; corner < leaf_of.size(); ++corner) {
+        if (!std::exchange(is_seen[leaf_of[corner]], uint8_t{1}))
+            ++sheets_at[faces.places[corner / 3][corner % 3]];
+        if (sheets.mates[corner] != kNone) parts.join(corner / 3, sheets.mates[corner] / 3);
+    }
+    for (uint32_t count : sheets_at)
+        report.non_manifold_vertices += count > 1 ? 1u : 0u;
+    for (uint32_t face = 0; face < faces.places.size(); ++face)
+        report.components += parts.find(face) == face ? 1u : 0u;
+}
+
+/// What makes two corners of a leaf one drawn vertex.
+struct Look {
+    uint32_t leaf;
+    glm::vec3 normal;
+    glm::u8vec4 colour;
+};
+
+/// Fills the drawn vertices: the first look of a leaf is its own, all others follow behind the leaves.
+void number_vertices(const SurfaceMesh& mesh, const Faces& faces, ManifoldMesh& out) {
+    const size_t leaves = out.positions.size();
+    std::vector<uint32_t> first(leaves, kNone), next;  // looks of a leaf as a list
+    std::vector<Look> looks;
+    std::vector<uint32_t> vertex_of_look;
+    out.vertex_leaf.resize(leaves);
+    out.normals.resize(leaves);
+    out.colours.resize(leaves);
+    for (size_t t = 0; t < faces.places.size(); ++t) {
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t source = mesh.triangles[faces.source[t]][k];
+            const Look look{out.triangles[t][k], mesh.normals[source], mesh.colours[source]};
+            uint32_t at = first[look.leaf];
+            while (at != kNone && !(looks[at].normal == look.normal && looks[at].colour == look.colour))
+                at = next[at];
+            if (at == kNone) {
+                at = static_cast<uint32_t>(looks.size());
+                const bool is_own = first[look.leaf] == kNone;
+                const size_t vertex = is_own ? look.leaf : out.vertex_leaf.size();
+                if (!is_own) {
+                    out.vertex_leaf.emplace_back();
+                    out.normals.emplace_back();
+                    out.colours.emplace_back();
+                }
+                out.vertex_leaf[vertex] = look.leaf;
+                out.normals[vertex] = look.normal;
+                out.colours[vertex] = look.colour;
+                looks.push_back(look);
+                next.push_back(first[look.leaf]);
+                vertex_of_look.push_back(static_cast<uint32_t>(vertex));
+                first[look.leaf] = at;
+            }
+            out.triangle_corners[t][k] = vertex_of_look[at];
+        }
+    }
+}
+
+void count_seams(const ManifoldMesh& out, const std::vector<uint32_t>& mates, MeshReport& report) {
+    const auto vertex = [&out](uint32_t corner) { return out.triangle_corners[corner / 3][corner % 3]; };
+    for (uint32_t corner = 0; corner < mates.size(); ++corner) {
+        const uint32_t mate = mates[corner];
+        if (mate == kNone || mate < corner) continue;
+        const bool is_smooth =
+            vertex(corner) == vertex(next_corner(mate)) && vertex(next_corner(corner)) == vertex(mate);
+        report.seam_edges += is_smooth ? 0u : 1u;
+    }
+}
+
+}  // namespace
+
+Result<ManifoldMesh> make_manifold(const SurfaceMesh& mesh, double weld_m, MeshReport& report) {
+    if (Result<Ok> checked = check_input(mesh); !checked) return checked.error();
+    report.vertices_in = static_cast<uint32_t>(mesh.positions.size());
+    report.triangles_in = static_cast<uint32_t>(mesh.triangles.size());
+    const std::vector<uint32_t> place_of = number_places(mesh.positions, weld_m);
+    const uint32_t places = place_of.empty() ? 0 : 1 + *std::max_element(place_of.begin(), place_of.end());
+    std::vector<glm::vec3> place_positions(places);
+    for (size_t i = place_of.size(); i-- > 0;)
+        place_positions[place_of[i]] = mesh.positions[i];
+    report.places = places;
+    const Faces faces = collect_faces(mesh, place_of, report);
+    if (faces.places.empty()) return Error{"no triangle with three different corners; expected at least one"};
+    Sheets sheets = join_sheets(faces, places, report);
+    const std::vector<uint32_t> leaf_of = settle_leaves(faces, sheets);
+    count_sheets(faces, sheets, leaf_of, report);
+
+    ManifoldMesh out;
+    const uint32_t leaves = 1 + *std::max_element(leaf_of.begin(), leaf_of.end());
+    out.positions.resize(leaves);
+    out.is_locked.resize(leaves, 0);
+    out.triangles.resize(faces.places.size());
+    out.triangle_corners.resize(faces.places.size());
+    for (uint32_t corner = 0; corner < leaf_of.size(); ++corner) {
+        const uint32_t leaf = leaf_of[corner], place = faces.places[corner / 3][corner % 3];
+        out.triangles[corner / 3][corner % 3] = leaf;
+        out.positions[leaf] = place_positions[place];
+        out.is_locked[leaf] = sheets.is_place_locked[place];
+    }
+    for (uint8_t is_locked : out.is_locked)
+        report.locked_leaves += is_locked;
+    number_vertices(mesh, faces, out);
+    count_seams(out, sheets.mates, report);
+    return out;
+}
+
+}  // namespace lod

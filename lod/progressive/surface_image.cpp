@@ -1,0 +1,291 @@
+#include "lod/progressive/surface_image.h"
+
+#include <algorithm>
+
+#include "lod/base/check.h"
+
+namespace lod {
+
+double SurfaceImage::collapse(uint32_t k) {
+    p_ = h_.leaf_count + k;
+    bound2_ = 0.0;
+    choose_centre(k);
+    gather_star(k);
+    plan_contracted();
+    carry_members(k);
+    replace_star(k);
+    move_members();
+    for (uint32_t edge : touched_)
+        rewrite(edge);
+    find_owner();
+    file_crossers();
+    const double bound = star_bound();
+    for (const Member& member : members_)
+        member_of_[member.vertex] = kNone;
+    for (uint32_t edge : touched_)
+        is_touched_[edge] = 0;
+    for (CornerId corner : fan_.corners)
+        sector_of_[corner / 3] = kNone;
+    for (CornerId corner : ruled_)
+        rule_of_[corner] = kNone;
+    return bound;
+}
+
+CornerId SurfaceImage::canonical(CornerId corner) const {
+    return std::min(corner, mesh_.mate(corner));  // a border's mate is the largest number
+}
+
+/// The end that p continues: at a border the one that lies on it, else the nearer.
+void SurfaceImage::choose_centre(uint32_t k) {
+    const auto [a, b] = h_.children[k];
+    const bool is_a_border = owner_[a] == kNone, is_b_border = owner_[b] == kNone;
+    bool is_a_centre = squared_distance(at(a), at(p_)) <= squared_distance(at(b), at(p_));
+    if (is_a_border != is_b_border) is_a_centre = is_a_border;
+    centre_ = is_a_centre ? a : b;
+    other_ = is_a_centre ? b : a;
+}
+
+void SurfaceImage::touch(uint32_t edge) {
+    if (is_touched_[edge]) return;
+    is_touched_[edge] = 1;
+    touched_.push_back(edge);
+}
+
+void SurfaceImage::touch_crossers(CornerId corner) {
+    std::vector<uint32_t>& crossers = crossers_[canonical(corner)];
+    for (uint32_t edge : crossers)
+        touch(edge);
+    crossers.clear();
+}
+
+/// Everything that the star's inner edges and its two nodes concern.
+void SurfaceImage::gather_star(uint32_t k) {
+    star_.clear(), touched_.clear(), removed_.clear(), rules_.clear(), ruled_.clear();
+    for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i) {
+        star_.push_back(h_.kept[i] / 3);
+        touch_crossers(h_.kept[i]);
+        touch_crossers(prev_corner(h_.kept[i]));
+    }
+    for (uint32_t i = h_.removed_begin[k]; i < h_.removed_begin[k + 1]; ++i) {
+        for (CornerId corner = 3 * h_.removed[i]; corner < 3 * h_.removed[i] + 3; ++corner)
+            touch_crossers(corner);
+        plan_removed(h_.removed[i]);
+    }
+    for (NodeId node : {centre_, other_}) {
+        for (uint32_t edge : passers_[node])
+            touch(edge);
+    }
+}
+
+/// Letters through the sides of a removed triangle.
+void SurfaceImage::plan_removed(uint32_t triangle) {
+    CornerId c = 3 * triangle, o = 3 * triangle;
+    while (mesh_.node(c) != centre_)
+        ++c;
+    while (mesh_.node(o) != other_)
+        ++o;
+    Removed r;
+    r.triangle = triangle;
+    const bool is_outward = next_corner(c) == o;
+    r.contracted = is_outward ? c : o;
+    r.side_c = is_outward ? prev_corner(c) : c;
+    r.side_o = is_outward ? o : prev_corner(o);
+    r.beyond_c = mesh_.mate(r.side_c);
+    r.beyond_o = mesh_.mate(r.side_o);
+    const auto rule = [this](CornerId letter, Word word) {
+        if (letter == kNoCorner) return;
+        rule_of_[letter] = static_cast<uint32_t>(rules_.size());
+        rules_.push_back(std::move(word));
+        ruled_.push_back(letter);
+    };
+    const bool is_inside = r.beyond_c != kNoCorner && r.beyond_o != kNoCorner;
+    rule(r.side_c, is_inside ? Word{r.beyond_o} : Word{});
+    rule(r.side_o, {});
+    if (r.beyond_o == kNoCorner) rule(r.beyond_c, {});
+    rule(r.beyond_o, {});
+    removed_.push_back(r);
+}
+
+/// Letters through the edge that contracts go round the other end's remaining triangles.
+void SurfaceImage::plan_contracted() {
+    if (removed_.size() != 2) return;
+    const CornerId begin = removed_[0].beyond_o, end = removed_[1].beyond_o;
+    CHECK(begin != kNoCorner && end != kNoCorner);
+    Word word, back;
+    if (mesh_.node(begin) == other_) {
+        for (CornerId at = begin; prev_corner(at) != end; at = mesh_.mate(prev_corner(at)))
+            word.push_back(prev_corner(at));
+    } else {
+        for (CornerId at = next_corner(begin); at != end; at = next_corner(mesh_.mate(at)))
+            word.push_back(at);
+    }
+    for (size_t i = word.size(); i-- > 0;)
+        back.push_back(mesh_.mate(word[i]));
+    for (size_t i = 0; i < 2; ++i) {
+        rule_of_[removed_[i].contracted] = static_cast<uint32_t>(rules_.size());
+        ruled_.push_back(removed_[i].contracted);
+        rules_.push_back(i == 0 ? word : back);
+    }
+}
+
+/// Takes the vertices off the old star; those of removed triangles stand beyond one of their sides now.
+void SurfaceImage::carry_members(uint32_t k) {
+    members_.clear(), start_.clear();
+    const auto carry = [this](uint32_t triangle, CornerId to) {
+        for (uint32_t vertex : on_[triangle]) {
+            member_of_[vertex] = static_cast<uint32_t>(members_.size());
+            members_.push_back({.vertex = vertex});
+            start_.push_back(to);
+        }
+        on_[triangle].clear();
+    };
+    for (uint32_t triangle : star_)
+        carry(triangle, 3 * triangle);
+    for (const Removed& r : removed_) {
+        for (uint32_t vertex : on_[r.triangle]) {
+            CornerId& border = border_of_[vertex];
+            if (border == r.side_o) border = r.beyond_c;
+            if (border == r.side_c) border = r.beyond_o;
+        }
+        carry(r.triangle, r.beyond_o != kNoCorner ? r.beyond_o : r.beyond_c);
+    }
+    DCHECK(star_.size() + removed_.size() ==
+           h_.kept_begin[2 * k + 2] - h_.kept_begin[2 * k] + removed_.size());
+    static_cast<void>(k);
+}
+
+void SurfaceImage::replace_star(uint32_t k) {
+    for (const Removed& r : removed_)
+        mesh_.close_gap(r.side_c, r.side_o);
+    const uint32_t begin = h_.kept_begin[2 * k], end = h_.kept_begin[2 * k + 2];
+    CHECK(begin < end);
+    for (uint32_t i = begin; i < end; ++i)
+        mesh_.set_node(h_.kept[i], p_);
+    mesh_.fan_at(h_.kept[begin], fan_);
+    CHECK(fan_.corners.size() == end - begin);
+    for (size_t i = 0; i < fan_.corners.size(); ++i) {
+        const CornerId corner = fan_.corners[i];
+        sector_of_[corner / 3] = static_cast<uint32_t>(i);
+        corner_of_[p_] = corner;
+        corner_of_[mesh_.node(next_corner(corner))] = next_corner(corner);
+        corner_of_[mesh_.node(prev_corner(corner))] = prev_corner(corner);
+    }
+}
+
+Triangle SurfaceImage::coarse_triangle(CornerId corner) const {
+    return {at(mesh_.node(corner)), at(mesh_.head(corner)), at(mesh_.node(prev_corner(corner)))};
+}
+
+/// Sends every vertex of the star to the nearest new triangle.
+void SurfaceImage::move_members() {
+    for (size_t i = 0; i < members_.size(); ++i) {
+        Member& member = members_[i];
+        member.from = member.to = sector_of_[start_[i] / 3];
+        CHECK(member.from != kNone);
+        const glm::dvec3 place = at(member.vertex);
+        if (border_of_[member.vertex] == kNoCorner)
+            move_inner(member, place);
+        else
+            move_border(member, place);
+        const uint32_t triangle = fan_.corners[member.to] / 3;
+        triangle_of_[member.vertex] = triangle;
+        on_[triangle].push_back(member.vertex);
+        if (member.from == member.to && !member.passes_p) continue;
+        for (uint32_t j = incident_begin_[member.vertex]; j < incident_begin_[member.vertex + 1]; ++j)
+            touch(incident_[j]);
+    }
+}
+
+void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
+    constexpr size_t kSearched = 12;
+    const size_t count = fan_.corners.size();
+    double least2 = squared_distance(place, coarse_triangle(fan_.corners[member.from]));
+    const auto attempt = [&](size_t sector) {
+        const double apart2 = squared_distance(place, coarse_triangle(fan_.corners[sector]));
+        if (apart2 >= least2) return false;
+        least2 = apart2;
+        member.to = static_cast<uint32_t>(sector);
+        return true;
+    };
+    if (count <= kSearched) {
+        for (size_t sector = 0; sector < count && least2 > 0.0; ++sector)
+            attempt(sector);
+    } else {
+        for (const bool is_up : {true, false}) {
+            size_t at = member.to;
+            do {
+                if (!fan_.is_closed && at == (is_up ? count - 1 : 0)) break;
+                at = is_up ? (at + 1) % count : (at + count - 1) % count;
+            } while (least2 > 0.0 && attempt(at));
+        }
+    }
+    const size_t ccw = (member.to + count - member.from) % count;
+    member.is_ccw = fan_.is_closed ? 2 * ccw <= count : member.to > member.from;
+    bound2_ = std::max(bound2_, least2);
+}
+
+/// A border vertex stays on the border: on its edge, or on the other one of p.
+void SurfaceImage::move_border(Member& member, const glm::dvec3& place) {
+    CornerId& border = border_of_[member.vertex];
+    const CornerId out = fan_.corners.front(), in = prev_corner(fan_.corners.back());
+    const bool is_at_p = !fan_.is_closed;
+    if (is_at_p && border == removed_[0].contracted) border = mesh_.node(border) == centre_ ? out : in;
+    const auto apart2 = [&](CornerId corner) {
+        return squared_distance(place,
+                                nearest_on_segment(place, at(mesh_.node(corner)), at(mesh_.head(corner))));
+    };
+    if (is_at_p && (border == out || border == in)) {
+        const bool was_out = border == out,
+                   is_out = apart2(out) < apart2(in) || (was_out && apart2(out) == apart2(in));
+        member.passes_p = was_out != is_out;
+        member.is_forward = is_out;
+        border = is_out ? out : in;
+        member.to = is_out ? 0 : static_cast<uint32_t>(fan_.corners.size() - 1);
+    }
+    member.is_ccw = member.to > member.from;
+    bound2_ = std::max(bound2_, apart2(border));
+}
+
+/// The word of an edge after the collapse and the moves of its ends.
+void SurfaceImage::rewrite(uint32_t index) {
+    FullEdge& edge = edges_[index];
+    const Member* u = member_of_[edge.u] == kNone ? nullptr : &members_[member_of_[edge.u]];
+    const Member* v = member_of_[edge.v] == kNone ? nullptr : &members_[member_of_[edge.v]];
+    Word word;
+    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+    if (u != nullptr) walk_fan(fan_, u->to, u->from, !u->is_ccw, add);
+    for (CornerId letter : edge.word) {
+        if (rule_of_[letter] == kNone) {
+            add(letter);
+        } else {
+            for (CornerId other : rules_[rule_of_[letter]])
+                add(other);
+        }
+    }
+    if (v != nullptr) walk_fan(fan_, v->from, v->to, v->is_ccw, add);
+    edge.word = std::move(word);
+    if (edge.right == kNoCorner) rewrite_passes(edge, u, v);
+}
+
+void SurfaceImage::rewrite_passes(FullEdge& edge, const Member* u, const Member* v) {
+    std::vector<Pass> passes;
+    const auto add = [&](const Pass& pass) {
+        const bool is_undone =
+            pass.node == p_ && !passes.empty() && passes.back() == Pass{p_, !pass.is_forward};
+        if (is_undone)
+            passes.pop_back();
+        else
+            passes.push_back(pass);
+    };
+    if (u != nullptr && u->passes_p) add({p_, !u->is_forward});
+    for (const Pass& pass : edge.passes) {
+        if (pass.node == centre_)
+            add({p_, pass.is_forward});
+        else if (pass.node != other_)
+            add(pass);
+    }
+    if (v != nullptr && v->passes_p) add({p_, v->is_forward});
+    edge.passes = std::move(passes);
+}
+
+}  // namespace lod

@@ -1,0 +1,148 @@
+// SurfaceImage: where the full mesh lies on the mesh that its collapses leave, as a proof of how far the two are apart.
+//
+// A continuous map takes the full surface onto the coarse one. It is known by little:
+//   - the triangle on which each full vertex lies; of a border vertex, the border edge;
+//   - for each full edge the word of coarse edges that its image crosses (edge_words.h);
+//   - for each coarse node the full triangle whose image holds it, its owner; at borders, the full border edges that
+//     pass it.
+// The image of a full triangle f is bounded by the words of its three edges and can be drawn together without crossing
+// any node but those that f owns. Cut it along the coarse edges: every piece lies in one coarse triangle t, and its
+// corners are full vertices of f on t, crossings of an edge of f with one of t, or nodes of t that f owns. At a corner
+// a point x of f is paired with a point y of t: the vertex with its nearest point of t, the two edges' nearest points,
+// the node and its nearest point of f. Between corners both are interpolated, so |x - y| is at most the largest at a
+// corner. All x cover the full surface and all y the coarse one, because the maps are of degree one. Hence the largest
+// distance at any corner bounds both directions of the Hausdorff distance, and what concerns t bounds it for t.
+//
+// No statement depends on a numeric decision: a bad choice of triangle, word or owner makes the bound loose, not wrong.
+// A collapse (c, o) -> p changes the map inside the star only: c becomes p, o is forgotten. Letters through (o, r) of a
+// removed triangle (c, o, r) vanish, those through (c, o) go round o's remaining triangles, all others stay. Then
+// vertices move to the new triangle that is nearest, which adds letters round p to their edges' words; and p goes to a
+// nearer owner, which sends the edge between round the other side. As this uses nothing but the star, the map on a
+// triangle is the same in every front that has the triangle.
+//
+// Sources: Cohen, Manocha, Olano, Simplifying polygonal models using successive mappings (1997), for the bound at the
+// corners of an overlay. Differs from it in: no projection; the overlay is known by homotopy alone.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "lod/progressive/coarse_mesh.h"
+#include "lod/progressive/edge_words.h"
+#include "lod/progressive/vertex_hierarchy.h"
+#include "lod/surface/triangle.h"
+
+namespace lod {
+
+class SurfaceImage {
+  public:
+    /// The image of the full mesh on itself.
+    explicit SurfaceImage(const VertexHierarchy& hierarchy);
+
+    /// Replays collapse k; they come in order. @returns the bound for the triangles it makes, m
+    double collapse(uint32_t k);
+
+    /// Whether all full triangles can be drawn together as claimed. For tests; O(n).
+    bool is_sound() const;
+
+  private:
+    static constexpr uint32_t kNone = 0xffffffffu;
+
+    /// A node passed along a border, forwards or backwards.
+    struct Pass {
+        NodeId node = 0;
+        bool is_forward = true;
+        bool operator==(const Pass&) const = default;
+    };
+    /// A full edge; u to v has its left triangle on the left. Border edges have no other.
+    struct FullEdge {
+        uint32_t u = 0, v = 0;
+        CornerId left = 0, right = kNoCorner;  ///< of the full mesh; no right: a border
+        Word word;                             ///< crossed edges, from u to v
+        std::vector<Pass> passes;              ///< of border edges: nodes passed
+    };
+    /// A vertex in the star that is being replaced.
+    struct Member {
+        uint32_t vertex = 0;
+        uint32_t from = 0, to = 0;  ///< sectors of the new fan
+        bool is_ccw = true;
+        bool passes_p = false;   ///< a border vertex that goes past p
+        bool is_forward = true;  ///< … in the direction of the border
+    };
+
+    void begin_edges();
+    void begin_vertices();
+    void begin_words();
+    void begin_owner(const Fan& fan, NodeId leaf);
+
+    void choose_centre(uint32_t k);
+    void gather_star(uint32_t k);
+    void touch_crossers(CornerId corner);
+    void touch(uint32_t edge);
+    void plan_removed(uint32_t triangle);
+    void plan_contracted();
+    void carry_members(uint32_t k);
+    void replace_star(uint32_t k);
+    void move_members();
+    void move_inner(Member& member, const glm::dvec3& at);
+    void move_border(Member& member, const glm::dvec3& at);
+    void rewrite(uint32_t edge);
+    void rewrite_passes(FullEdge& edge, const Member* u, const Member* v);
+    void find_owner();
+    bool flip(uint32_t edge, uint32_t from, uint32_t to);
+    bool send_round(FullEdge& edge, bool is_ccw);
+    void file_crossers();
+    double star_bound();
+    double crossing_bound(const FullEdge& edge, CornerId corner) const;
+    double owner_distance(NodeId node, uint32_t triangle) const;
+
+    CornerId canonical(CornerId corner) const;
+    glm::dvec3 at(NodeId node) const { return glm::dvec3(h_.position[node]); }
+    Triangle coarse_triangle(CornerId corner) const;
+    Word loop_of(uint32_t triangle) const;
+    bool can_fill(uint32_t triangle) const;
+
+    const VertexHierarchy& h_;
+    CoarseMesh mesh_;
+    std::vector<FullEdge> edges_;
+    std::vector<uint32_t> edge_of_;          // [corners of the full mesh]
+    std::vector<uint32_t> incident_begin_;   // [leaves + 1] into incident_
+    std::vector<uint32_t> incident_;         // full edges at a vertex
+    std::vector<std::vector<uint32_t>> on_;  // [triangles] full vertices that lie there
+    std::vector<uint32_t> triangle_of_;      // [leaves] where the full vertex lies
+    std::vector<CornerId> border_of_;        // [leaves] its border half-edge; kNoCorner: inside
+    std::vector<std::vector<uint32_t>>
+        crossers_;  // [corners, the canonical] full edges that cross, perhaps twice
+    std::vector<std::vector<uint32_t>> passers_;  // [nodes] full border edges that pass
+    std::vector<uint32_t> owner_;                 // [nodes] full triangle; kNone at borders
+    std::vector<std::vector<NodeId>> owned_;      // [triangles of the full mesh]
+    std::vector<CornerId> corner_of_;             // [nodes] one of its corners
+    std::vector<double> edge_bound_m_;            // [corners] crossings of that edge
+    std::vector<double> node_bound_m_;            // [nodes] owner or passers
+
+    // The collapse at hand.
+    NodeId p_ = 0, centre_ = 0, other_ = 0;
+    Fan fan_;
+    std::vector<uint32_t> star_;        // old triangles
+    std::vector<uint32_t> removed_to_;  // [2] per removed triangle: where its vertices go
+    std::vector<Member> members_;
+    std::vector<CornerId> start_;      // [members] corner of the triangle where each is at first
+    std::vector<uint32_t> touched_;    // full edges to rewrite
+    std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
+    std::vector<uint8_t> is_touched_;  // [edges]
+    std::vector<uint32_t> sector_of_;  // [triangles] in the new fan
+    std::vector<uint32_t> rule_of_;    // [corners] into rules_, kNone: stays
+    std::vector<Word> rules_;
+    std::vector<CornerId> ruled_;
+    struct Removed {
+        uint32_t triangle = 0;
+        CornerId contracted = 0, side_c = 0, side_o = 0;  ///< half-edges: c o, c r, o r
+        CornerId beyond_c = 0, beyond_o = 0;              ///< their mates
+    };
+    std::vector<Removed> removed_;
+    double bound2_ = 0.0;  // largest squared distance of a vertex
+};
+
+}  // namespace lod

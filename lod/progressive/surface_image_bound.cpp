@@ -1,0 +1,164 @@
+// SurfaceImage: owners of nodes, and the bound that everything in a star gives.
+#include <algorithm>
+
+#include "lod/progressive/segment_distance.h"
+#include "lod/progressive/surface_image.h"
+
+namespace lod {
+
+double SurfaceImage::owner_distance(NodeId node, uint32_t triangle) const {
+    const auto& [a, b, c] = h_.triangles[triangle];
+    return glm::sqrt(squared_distance(at(node), Triangle{at(a), at(b), at(c)}));
+}
+
+/// p takes over the centre's owner, then goes to nearer ones.
+void SurfaceImage::find_owner() {
+    for (NodeId node : {centre_, other_}) {
+        if (owner_[node] != kNone) std::erase(owned_[owner_[node]], node);
+    }
+    if (owner_[centre_] == kNone) return;
+    owner_[p_] = owner_[centre_];
+    owned_[owner_[p_]].push_back(p_);
+    double apart = owner_distance(p_, owner_[p_]);
+    for (bool is_moving = true; is_moving && apart > 0.0;) {
+        is_moving = false;
+        const uint32_t from = owner_[p_];
+        for (CornerId corner = 3 * from; corner < 3 * from + 3 && !is_moving; ++corner) {
+            const FullEdge& edge = edges_[edge_of_[corner]];
+            if (edge.right == kNoCorner) continue;
+            const uint32_t to = (edge.left == corner ? edge.right : edge.left) / 3;
+            const double there = owner_distance(p_, to);
+            if (there >= apart || !flip(edge_of_[corner], from, to)) continue;
+            apart = there;
+            is_moving = true;
+        }
+    }
+    node_bound_m_[p_] = apart;
+}
+
+/// Gives p from one full triangle to its neighbour across an edge, whose image then passes p on the other side.
+bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
+    FullEdge& edge = edges_[index];
+    const Word before = edge.word;
+    if (!send_round(edge, edge.left / 3 != from)) return false;
+    std::erase(owned_[from], p_);
+    owned_[to].push_back(p_);
+    if (can_fill(from) && can_fill(to)) {
+        owner_[p_] = to;
+        touch(index);
+        return true;
+    }
+    edge.word = before;
+    std::erase(owned_[to], p_);
+    owned_[from].push_back(p_);
+    return false;
+}
+
+/// Inserts a full turn round p where the edge's image is in the star; best where it goes round p the other way.
+bool SurfaceImage::send_round(FullEdge& edge, bool is_ccw) {
+    size_t place = edge.word.size() + 1;
+    uint32_t sector = kNone;
+    for (size_t i = 0; i <= edge.word.size(); ++i) {
+        const uint32_t triangle = i == 0 ? triangle_of_[edge.u] : mesh_.mate(edge.word[i - 1]) / 3;
+        if (sector_of_[triangle] == kNone) continue;
+        const bool is_counter =
+            i < edge.word.size() && (is_ccw ? mesh_.node(edge.word[i]) : mesh_.head(edge.word[i])) == p_;
+        if (sector != kNone && !is_counter) continue;
+        place = i;
+        sector = sector_of_[triangle];
+        if (is_counter) break;
+    }
+    if (sector == kNone) return false;
+    Word word(edge.word.begin(), edge.word.begin() + static_cast<std::ptrdiff_t>(place));
+    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+    const auto count = static_cast<uint32_t>(fan_.corners.size());
+    const uint32_t next = is_ccw ? (sector + 1) % count : (sector + count - 1) % count;
+    if (count > 1) walk_fan(fan_, sector, next, is_ccw, add);
+    walk_fan(fan_, next, sector, is_ccw, add);
+    for (size_t i = place; i < edge.word.size(); ++i)
+        add(edge.word[i]);
+    edge.word = std::move(word);
+    return true;
+}
+
+Word SurfaceImage::loop_of(uint32_t triangle) const {
+    Word loop;
+    for (CornerId corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+        const FullEdge& edge = edges_[edge_of_[corner]];
+        if (edge.left == corner) {
+            loop.insert(loop.end(), edge.word.begin(), edge.word.end());
+        } else {
+            for (size_t i = edge.word.size(); i-- > 0;)
+                loop.push_back(mesh_.mate(edge.word[i]));
+        }
+    }
+    return loop;
+}
+
+bool SurfaceImage::can_fill(uint32_t triangle) const {
+    return is_fillable(mesh_, loop_of(triangle), owned_[triangle], corner_of_);
+}
+
+bool SurfaceImage::is_sound() const {
+    for (uint32_t triangle = 0; triangle < owned_.size(); ++triangle) {
+        if (!can_fill(triangle)) return false;
+    }
+    return true;
+}
+
+/// Who crosses p's edges, and who passes p.
+void SurfaceImage::file_crossers() {
+    for (CornerId corner : fan_.corners)
+        crossers_[canonical(corner)].clear();
+    for (uint32_t index : touched_) {
+        const FullEdge& edge = edges_[index];
+        for (CornerId letter : edge.word) {
+            if (mesh_.node(letter) != p_ && mesh_.head(letter) != p_) continue;
+            std::vector<uint32_t>& crossers = crossers_[canonical(letter)];
+            if (crossers.empty() || crossers.back() != index) crossers.push_back(index);
+        }
+        const bool passes = std::any_of(edge.passes.begin(), edge.passes.end(),
+                                        [this](const Pass& pass) { return pass.node == p_; });
+        if (passes) passers_[p_].push_back(index);
+    }
+}
+
+/// The distance of a full edge from a coarse one that it crosses. A border edge's image runs along the border, so it
+/// crosses where both coarse edge and border have their node, on its right.
+double SurfaceImage::crossing_bound(const FullEdge& edge, CornerId corner) const {
+    const glm::dvec3 u = at(edge.u), v = at(edge.v);
+    if (edge.right != kNoCorner)
+        return squared_segment_distance(u, v, at(mesh_.node(corner)), at(mesh_.head(corner)));
+    double most2 = 0.0;
+    for (CornerId letter : edge.word) {
+        if (canonical(letter) != canonical(corner)) continue;
+        const glm::dvec3 node = at(mesh_.node(letter));
+        most2 = std::max(most2, squared_distance(node, nearest_on_segment(node, u, v)));
+    }
+    return most2;
+}
+
+double SurfaceImage::star_bound() {
+    for (uint32_t index : passers_[p_]) {
+        const FullEdge& edge = edges_[index];
+        const double apart2 = squared_distance(at(p_), nearest_on_segment(at(p_), at(edge.u), at(edge.v)));
+        node_bound_m_[p_] = std::max(node_bound_m_[p_], glm::sqrt(apart2));
+    }
+    double bound = std::max(glm::sqrt(bound2_), node_bound_m_[p_]);
+    for (CornerId corner : fan_.corners) {
+        const CornerId mate = mesh_.mate(corner);
+        double most2 = 0.0;
+        if (mate != kNoCorner) {
+            for (uint32_t index : crossers_[canonical(corner)])
+                most2 = std::max(most2, crossing_bound(edges_[index], corner));
+            edge_bound_m_[mate] = glm::sqrt(most2);
+        }
+        edge_bound_m_[corner] = glm::sqrt(most2);
+        const CornerId outer = next_corner(corner);
+        bound = std::max({bound, edge_bound_m_[corner], edge_bound_m_[outer],
+                          node_bound_m_[mesh_.node(outer)], node_bound_m_[mesh_.head(outer)]});
+    }
+    return bound;
+}
+
+}  // namespace lod
