@@ -1,0 +1,85 @@
+// MeshCut: which nodes of a vertex hierarchy are active, and the triangles between them: vsplit, ecol, and whether
+// they are legal.
+//
+//            a --- b        ecol ->          p
+//          / | \ / | \    <- vsplit        / | \        star of p: what the build saw when it made p
+//
+// Legality is by identifiers alone (vertex_hierarchy.h): M(p), the largest id among p's neighbours, m(p), the smallest
+// id among their parents. Both are read off the star when they are asked for: a star is some six triangles, and
+// upkeep would touch as many nodes at every operation. Split p when p > M(p); collapse (a, b) -> p when p <= m(a), m(b).
+//
+// A triangle that a border collapse took away together with p's last edge to the collapse's node leaves no neighbour to
+// ask; it stands for its remover, so M is never too small and a split never meets a star that the build did not see.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lod/progressive/mesh_tables.h"
+
+namespace lod {
+
+class MeshCut {
+  public:
+    /// Starts at the coarsest mesh. Keeps a reference.
+    explicit MeshCut(const ProgressiveMesh& mesh);
+
+    const ProgressiveMesh& mesh() const { return *mesh_; }
+    bool is_active(NodeId node) const { return is_active_[node] != 0; }
+    bool is_drawn(uint32_t triangle) const { return (triangle_flags_[triangle] & kDrawn) != 0; }
+    /// Corners of a drawn triangle.
+    std::span<const NodeId, 3> corners(uint32_t triangle) const {
+        return std::span<const NodeId, 3>(corners_.data() + 3 * size_t{triangle}, 3);
+    }
+    uint32_t triangle_count() const { return drawn_count_; }
+    /// Equal cuts have equal hashes.
+    uint64_t hash() const { return hash_; }
+
+    /// M: the largest id among the neighbours of an active node; 0 without any.
+    NodeId largest_neighbour(NodeId node) const;
+    /// m: the smallest id among the parents of an active node's neighbours; kNoNode when none has one.
+    NodeId oldest_parent(NodeId node) const;
+
+    /// The active node that must be split before `node`; kNoNode: its split is legal now.
+    /// @param node  active, no leaf
+    NodeId split_blocker(NodeId node) const;
+    /// The node that must be collapsed before `node`; kNoNode: its collapse is legal now.
+    /// @param node  both children active
+    NodeId collapse_blocker(NodeId node) const;
+    bool are_children_active(NodeId node) const {
+        const auto& children = mesh_->hierarchy.children[mesh_->collapse_of(node)];
+        return is_active(children[0]) && is_active(children[1]);
+    }
+
+    /// The operations; DCHECK that they are legal. Never allocate.
+    void vsplit(NodeId node);
+    void ecol(NodeId node);
+
+    /// Triangles whose corners changed, or that came or went, since the last call of forget_touched(); each once.
+    std::span<const uint32_t> touched() const { return touched_; }
+    void forget_touched();
+
+    /// Proves every invariant from the full mesh; empty, or one line. Slow.
+    std::string validate() const;
+
+  private:
+    static constexpr uint8_t kDrawn = 1, kTouched = 2;
+
+    void touch(uint32_t triangle) {
+        if (triangle_flags_[triangle] & kTouched) return;
+        triangle_flags_[triangle] |= kTouched;
+        touched_.push_back(triangle);
+    }
+
+    const ProgressiveMesh* mesh_;
+    std::vector<NodeId> corners_;  ///< [3 * triangles]; of one not drawn: when it last was
+    std::vector<uint8_t> triangle_flags_, is_active_;
+    std::vector<uint32_t> touched_;
+    uint32_t drawn_count_ = 0;
+    uint64_t hash_ = 0;
+};
+
+}  // namespace lod

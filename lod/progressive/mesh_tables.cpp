@@ -1,0 +1,98 @@
+#include "lod/progressive/mesh_tables.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lod/base/check.h"
+#include "lod/draw_list.h"
+
+namespace lod {
+namespace {
+
+void index_leaf_corners(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    mesh.leaf_begin.assign(h.leaf_count + 1, 0);
+    for (const auto& triangle : h.triangles) {
+        for (NodeId leaf : triangle) {
+            CHECK(leaf < h.leaf_count);
+            ++mesh.leaf_begin[leaf + 1];
+        }
+    }
+    for (size_t leaf = 0; leaf < h.leaf_count; ++leaf)
+        mesh.leaf_begin[leaf + 1] += mesh.leaf_begin[leaf];
+    mesh.leaf_corners.resize(3 * h.triangles.size());
+    std::vector<uint32_t> next(mesh.leaf_begin.begin(), mesh.leaf_begin.end() - 1);
+    for (size_t t = 0; t < h.triangles.size(); ++t) {
+        for (size_t corner = 0; corner < 3; ++corner)
+            mesh.leaf_corners[next[h.triangles[t][corner]]++] = static_cast<CornerId>(3 * t + corner);
+    }
+}
+
+/// All collapses in their order: what each triangle ends as, and by whom.
+void replay(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    mesh.last_corners = h.triangles;
+    mesh.remover.assign(h.triangles.size(), kNoNode);
+    for (uint32_t collapse = 0; collapse < h.collapse_count(); ++collapse) {
+        const NodeId node = h.leaf_count + collapse;
+        for (uint32_t triangle : mesh.removed(collapse))
+            mesh.remover[triangle] = node;
+        for (CornerId corner : mesh.star(node))
+            mesh.last_corners[corner / 3][corner % 3] = node;
+    }
+}
+
+void gather_bounds(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    mesh.bounds.resize(h.collapse_count());
+    for (uint32_t collapse = 0; collapse < h.collapse_count(); ++collapse) {
+        const NodeId node = h.leaf_count + collapse;
+        const glm::vec3& centre = h.centre[node];
+        // The few roundings of the metric (sight_metric.h).
+        const float rounding = (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) * 0x1p-22f;
+        mesh.bounds[collapse] = {.centre = centre,
+                                 .radius_m = (h.radius_m[node] + rounding) * (1.0f + 0x1p-20f),
+                                 .error_m = h.error_m[node],
+                                 .cone_axis = h.cone_axis[node],
+                                 .cone_cos = h.cone_cos[node]};
+    }
+}
+
+/// Around the box of all positions: a vertex under way is between positions, too.
+void enclose(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    if (h.position.empty()) return;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::vec3& position : h.position) {
+        low = glm::min(low, glm::dvec3(position));
+        high = glm::max(high, glm::dvec3(position));
+    }
+    mesh.centre = (low + high) * 0.5;
+    for (const glm::vec3& position : h.position)
+        mesh.radius_m = std::max(mesh.radius_m, glm::distance(glm::dvec3(position), mesh.centre));
+    mesh.radius_m *= 1.0 + 1e-12;
+}
+
+}  // namespace
+
+ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy) {
+    ProgressiveMesh mesh;
+    mesh.hierarchy = std::move(hierarchy);
+    const VertexHierarchy& h = mesh.hierarchy;
+    CHECK(h.triangles.size() < kNoNode / 3 && h.parent.size() == h.node_count());
+    CHECK(h.kept_begin.size() == 2 * size_t{h.collapse_count()} + 1);
+    CHECK(h.removed_begin.size() == size_t{h.collapse_count()} + 1);
+    index_leaf_corners(mesh);
+    replay(mesh);
+    gather_bounds(mesh);
+    enclose(mesh);
+    mesh.is_glass.reserve(h.triangles.size());
+    for (const auto& triangle : h.triangles)
+        mesh.is_glass.push_back(h.colour[triangle[0]].w == static_cast<uint8_t>(Material::kGlass));
+    for (NodeId node = 0; node < h.node_count(); ++node) {
+        if (h.parent[node] == kNoNode) mesh.roots.push_back(node);
+    }
+    return mesh;
+}
+
+}  // namespace lod

@@ -1,0 +1,77 @@
+// MeshTables: what fronts derive once from a vertex hierarchy and share: every vertex's star at its birth, and
+// each triangle's end.
+//
+// While a node lives, its star only loses triangles (to collapses that the build made later), so the corners it was
+// born with are all that a walk around it has to look at.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lod/progressive/vertex_hierarchy.h"
+
+namespace lod {
+
+/// What a front ranks a collapse's node by, side by side; 36 bytes. Mesh frame, metres.
+struct NodeBound {
+    glm::vec3 centre{0.0f};
+    float radius_m = 0.0f;  ///< rounded up
+    float error_m = 0.0f;
+    glm::vec3 cone_axis{0.0f};
+    float cone_cos = -1.0f;  ///< -1: no cone
+};
+
+/// A hierarchy and its tables; never changes while a front looks at it.
+struct ProgressiveMesh {
+    VertexHierarchy hierarchy;
+
+    std::vector<uint32_t> leaf_begin;    ///< [leaves + 1] into leaf_corners
+    std::vector<CornerId> leaf_corners;  ///< corners of the full mesh, by their vertex
+    std::vector<std::array<NodeId, 3>>
+        last_corners;               ///< [triangles] before its removal, or of the coarsest mesh
+    std::vector<NodeId> remover;    ///< [triangles] node whose collapse removes it; kNoNode: none
+    std::vector<uint8_t> is_glass;  ///< [triangles]
+    std::vector<NodeBound> bounds;  ///< [collapses]
+    std::vector<NodeId> roots;      ///< nodes without parent, rising
+    glm::dvec3 centre{0.0};         ///< sphere around every node's position
+    double radius_m = 0.0;
+
+    uint32_t triangle_count() const { return static_cast<uint32_t>(hierarchy.triangles.size()); }
+    uint32_t leaf_count() const { return hierarchy.leaf_count; }
+    bool is_leaf(NodeId node) const { return node < hierarchy.leaf_count; }
+    uint32_t collapse_of(NodeId node) const { return node - hierarchy.leaf_count; }
+
+    /// Triangles that hold both children of a collapse: PAT.
+    std::span<const uint32_t> removed(uint32_t collapse) const {
+        const uint32_t begin = hierarchy.removed_begin[collapse];
+        return {hierarchy.removed.data() + begin, hierarchy.removed_begin[collapse + 1] - begin};
+    }
+    /// Corners that a collapse hands from one of its children to its node: half a CAT.
+    std::span<const CornerId> kept(uint32_t collapse, uint32_t child) const {
+        const uint32_t begin = hierarchy.kept_begin[2 * collapse + child];
+        return {hierarchy.kept.data() + begin, hierarchy.kept_begin[2 * collapse + child + 1] - begin};
+    }
+    /// The corners a node is born with.
+    std::span<const CornerId> star(NodeId node) const {
+        if (is_leaf(node)) {
+            return {leaf_corners.data() + leaf_begin[node], leaf_begin[node + 1] - leaf_begin[node]};
+        }
+        const uint32_t begin = hierarchy.kept_begin[2 * collapse_of(node)];
+        return {hierarchy.kept.data() + begin, hierarchy.kept_begin[2 * collapse_of(node) + 2] - begin};
+    }
+};
+
+/// The other two corners of a corner's triangle, counter-clockwise.
+inline CornerId next_corner(CornerId corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+inline CornerId previous_corner(CornerId corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+/// Derives the tables. The hierarchy must be one that validate_hierarchy() finds nothing wrong with.
+/// Cost: one replay of the collapses.
+ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy);
+
+}  // namespace lod
