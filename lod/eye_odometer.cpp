@@ -7,8 +7,9 @@
 namespace lod {
 namespace {
 
-/// Readings are floats in the records: they start again before a millimetre is lost.
-constexpr double kLimit = 4096.0;
+/// Readings are floats in the records: they start again before a millimetre is lost, or a ten-thousandth of where eyes
+/// usually are.
+constexpr double kLimit = 4096.0, kTypicalLimit = 128.0;
 
 /// Chord of the rotation between two orientations: moves a point at distance 1 by at most this.
 double rotation_chord(const glm::dmat3& a, const glm::dmat3& b) {
@@ -42,7 +43,8 @@ EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::d
     walked_m_ += step_m;
     turned_rad_ += step_rad;
     walk_share_ = static_cast<float>(std::clamp(step_m / (step_m + typical_m_ * step_rad + 1e-30), 0.1, 0.9));
-    if (is_comparable && walked_m_ < kLimit && turned_rad_ < kLimit) return Step::kAdvanced;
+    if (is_comparable && walked_m_ < std::min(kLimit, kTypicalLimit * typical_m_) && turned_rad_ < kLimit)
+        return Step::kAdvanced;
     walked_before_m_ = std::exchange(walked_m_, 0.0);
     turned_before_rad_ = std::exchange(turned_rad_, 0.0);
     return is_comparable ? Step::kRewound : Step::kIncomparable;

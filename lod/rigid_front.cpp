@@ -14,11 +14,6 @@ namespace {
 
 constexpr uint32_t kNoInstance = UINT32_MAX;
 
-struct Sphere {
-    glm::dvec3 centre{0.0};
-    double radius_m = 0.0;
-};
-
 /// Around the bounding box's centre; the margin covers the rounding of its own computation.
 Sphere bounding_sphere(std::span<const Vertex> vertices) {
     if (vertices.empty()) return {};
@@ -40,28 +35,6 @@ uint64_t hash_of(std::span<const Vertex> vertices, std::span<const uint32_t> ind
         return std::span(reinterpret_cast<const unsigned char*>(items.data()), items.size_bytes());
     };
     return hash_bytes(bytes_of(indices), hash_bytes(bytes_of(vertices)));
-}
-
-/// The part's sphere in the eye frame; only as good as the pose: rotation times uniform scale.
-Sphere sphere_in_eye(const Sphere& body, const BodyPose& pose, const ViewMetric& metric) {
-    if (pose.frame == BodyPose::Frame::kWorld) {
-        return {metric.eye_from_world * (body.centre - metric.eye_world), body.radius_m};
-    }
-    const Sphere turned{pose.reference_from_body * body.centre,
-                        body.radius_m * glm::length(pose.reference_from_body[0])};
-    if (pose.frame == BodyPose::Frame::kEye) return {turned.centre + pose.origin, turned.radius_m};
-    return {metric.eye_from_world * (turned.centre + (pose.origin - metric.eye_world)), turned.radius_m};
-}
-
-/// Whether the matrix is a rotation times a uniform scale, to a relative 1e-6.
-bool is_similarity(const glm::dmat3& matrix) {
-    const double scale = glm::length(matrix[0]);
-    if (!(scale > 0.0) || !std::isfinite(scale)) return false;
-    const glm::dmat3 rest = glm::transpose(matrix) * matrix * (1.0 / (scale * scale)) - glm::dmat3(1.0);
-    double worst = 0.0;
-    for (int col = 0; col < 3; ++col)
-        worst = std::max(worst, glm::length(rest[col]));
-    return worst < 1e-6 && glm::determinant(matrix) > 0.0;
 }
 
 }  // namespace
@@ -140,20 +113,7 @@ bool RigidFront::is_outside(const Placed& part, const ViewMetric& metric) const 
 }
 
 Instance RigidFront::instance_of(const BodyPose& pose, const View& view) const {
-    Instance instance{};
-    switch (pose.frame) {
-        case BodyPose::Frame::kWorld:
-            instance = make_world_instance(view.eye_world, view.eye_from_world, module_);
-            break;
-        case BodyPose::Frame::kPlaced:
-            instance = make_instance(view.eye_world, view.eye_from_world, pose.origin,
-                                     pose.reference_from_body, module_);
-            break;
-        case BodyPose::Frame::kEye:
-            instance = make_instance(glm::dvec3(0.0), glm::dmat3(1.0), pose.origin, pose.reference_from_body,
-                                     module_);
-            break;
-    }
+    Instance instance = make_body_instance(view, pose, module_);
     const glm::dvec3 up_eye = view.eye_from_world * up_world_;
     for (int axis = 0; axis < 3; ++axis)
         instance.up_eye[axis] = static_cast<float>(up_eye[axis]);
@@ -192,9 +152,7 @@ void RigidFront::emit(const View& view, DrawList& out) {
 
 std::string RigidFront::validate() const {
     for (size_t body = 0; body < bodies_.size(); ++body) {
-        const BodyPose& pose = bodies_[body];
-        if (pose.frame == BodyPose::Frame::kWorld) continue;
-        if (!is_similarity(pose.reference_from_body) || !std::isfinite(glm::dot(pose.origin, pose.origin))) {
+        if (!is_valid(bodies_[body])) {
             return "body " + std::to_string(body) + ": its pose is not a rotation times a scale and a place";
         }
     }

@@ -8,21 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "lod/body_pose.h"
 #include "lod/front.h"
 
 namespace lod {
-
-/// Where a body is.
-struct BodyPose {
-    enum class Frame : uint8_t {
-        kWorld,   ///< vertices are world positions; the pose is ignored
-        kPlaced,  ///< reference_from_body maps body to world
-        kEye      ///< reference_from_body maps body to the eye frame: fixed in the cockpit
-    };
-    Frame frame = Frame::kWorld;
-    glm::dmat3 reference_from_body{1.0};  ///< rotation times uniform scale
-    glm::dvec3 origin{0.0};               ///< the body's origin in the reference frame, metres
-};
 
 /// A piece of geometry with one bounding sphere; one draw item. Tens to some thousands of triangles.
 struct RigidPart {

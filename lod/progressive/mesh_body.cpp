@@ -1,0 +1,233 @@
+#include "lod/progressive/mesh_body.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "lod/base/check.h"
+#include "lod/screen_error.h"
+
+namespace lod {
+namespace {
+
+/// Once this share of the cut must be looked at again, the frame is incoherent.
+constexpr uint32_t kIncoherentShare = 4;
+/// Collapses whose error is this many buckets (two octaves) below limit and tolerance go without a glide.
+constexpr int kNoGlideMargin = 16;
+/// After a longer pause nobody remembers the last picture.
+constexpr double kLongestFrame_s = 0.5;
+/// What the size policy says to the scheduler: by all means.
+constexpr double kDemand_px = 1e6;
+
+}  // namespace
+
+MeshBody::MeshBody(const ProgressiveMesh& mesh, const MeshOptions& options)
+    : options_(options),
+      cut_(mesh),
+      ranks_(mesh, options.ranks),
+      glides_(mesh.hierarchy.node_count(), options.glide_s) {
+    chain_.reserve(256);
+    for (NodeId root : mesh.roots) {
+        if (mesh.is_leaf(root)) continue;
+        ranks_.enqueue(record_of(root), NodeQueue::kSplit);
+        ranks_.wake(record_of(root));
+    }
+}
+
+/// Nothing is under way any more: what came is there, what was leaving may go at once.
+void MeshBody::settle() {
+    for (const NodeGlide& glide : glides_.all()) {
+        if (glide.shown_m != glm::vec3(0.0f)) strayed_.push_back(glide.node);
+    }
+    glides_.clear();
+    BucketQueue& leaves = ranks_.queue_at(NodeQueue::kLeave);
+    while (!leaves.is_empty()) {
+        const uint32_t record = leaves.head(leaves.lowest());
+        ranks_.unlink(record);
+        ranks_.enqueue(record, NodeQueue::kMerge);
+    }
+    leaving_triangles_ = 0;
+    glide_px_ = jump_px_ = 0.0;
+}
+
+void MeshBody::begin_frame(std::span<const View> views_body, double time_s) {
+    bool is_seen = false;
+    double size_px = 0.0;
+    for (const View& view : views_body) {
+        const ViewMetric metric = metric_of(view);
+        const glm::dvec3 centre = metric.eye_from_world * (mesh().centre - metric.eye_world);
+        if (distance_outside_m(metric, centre, mesh().radius_m) > 0.0) continue;
+        is_seen = true;
+        const double distance = std::max(glm::length(centre), mesh().radius_m);
+        size_px = std::max(size_px, 2.0 * mesh().radius_m * metric.lambda_px / distance);
+    }
+    const bool wakes = is_seen && is_asleep_;
+    const double passed_s = time_s - now_s_;
+    now_s_ = time_s;
+    if (!is_seen && !is_asleep_) settle();
+    is_asleep_ = !is_seen;
+    if (is_asleep_) return;
+    wanted_triangles_ = static_cast<uint64_t>(share_by_size(size_px) * mesh().triangle_count());
+    const EyeOdometer::Step step = ranks_.begin_frame(views_body);
+    const bool is_incoherent =
+        ranks_.due().size() > ranks_.queued_count() / kIncoherentShare && ranks_.due().size() > 64;
+    is_cut_ = wakes || is_incoherent || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
+              passed_s > kLongestFrame_s;
+    if (is_cut_) {
+        settle();
+    } else {
+        advance_glides();
+    }
+    refresh_due();
+}
+
+void MeshBody::refresh_due() {
+    for (uint32_t record : ranks_.due()) {
+        if (ranks_.queue(record) == NodeQueue::kNone) continue;
+        const Bucket before = ranks_.bucket(record);
+        ranks_.refresh(record);
+        if (ranks_.queue(record) == NodeQueue::kLeave && ranks_.bucket(record) > before) stay(record);
+    }
+}
+
+double MeshBody::refine_error_px() {
+    BucketQueue& splits = ranks_.queue_at(NodeQueue::kSplit);
+    while (!is_asleep_ && !splits.is_empty()) {
+        const Bucket bucket = splits.highest();
+        if (bucket == kHiddenBucket) return 0.0;
+        const uint32_t head = splits.head(bucket);
+        if (!ranks_.is_fresh(head)) {
+            ranks_.refresh(head);
+            continue;
+        }
+        if (options_.policy == DetailPolicy::kSize) return triangles() < wanted_triangles_ ? kDemand_px : 0.0;
+        return bucket == kFlatBucket ? 1e-30 : double(ranks_.scale().upper_px(bucket));
+    }
+    return 0.0;
+}
+
+double MeshBody::coarsen_error_px() {
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    BucketQueue& merges = ranks_.queue_at(NodeQueue::kMerge);
+    while (!is_asleep_ && !merges.is_empty()) {
+        const Bucket bucket = merges.lowest();
+        const uint32_t head = merges.head(bucket);
+        if (!ranks_.is_fresh(head)) {
+            ranks_.refresh(head);
+            continue;
+        }
+        const NodeId blocker = cut_.collapse_blocker(node_of(head));
+        if (blocker != kNoNode) {
+            ranks_.block(head, record_of(blocker));
+            continue;
+        }
+        if (options_.policy == DetailPolicy::kSize) {
+            // Room for the largest single step, or the two would take turns.
+            const uint64_t slack = 64 + wanted_triangles_ / 100;
+            return triangles() > wanted_triangles_ + slack ? 0.0 : kNothing;
+        }
+        return bucket <= kFlatBucket ? 0.0 : double(ranks_.scale().lower_px(bucket));
+    }
+    return kNothing;
+}
+
+double MeshBody::error_px() const {
+    if (is_asleep_) return 0.0;
+    const BucketQueue& splits = ranks_.queue_at(NodeQueue::kSplit);
+    const double settled = splits.is_empty() ? 0.0 : double(ranks_.scale().upper_px(splits.highest()));
+    return settled + glide_px_;
+}
+
+void MeshBody::admit_children(NodeId node) {
+    std::array<uint32_t, 2> records{};
+    size_t count = 0;
+    for (NodeId child : mesh().hierarchy.children[record_of(node)]) {
+        if (!mesh().is_leaf(child)) records[count++] = record_of(child);
+    }
+    if (count > 0) ranks_.rank({records.data(), count}, false);
+    for (size_t i = 0; i < count; ++i)
+        ranks_.enqueue(records[i], NodeQueue::kSplit);
+}
+
+/// The node is active: with its sibling it may be collapsed.
+void MeshBody::admit_parent(NodeId node) {
+    const NodeId parent = mesh().hierarchy.parent[node];
+    if (parent == kNoNode || !cut_.are_children_active(parent)) return;
+    const uint32_t record = record_of(parent);
+    ranks_.rank({&record, 1}, true);
+    ranks_.enqueue(record, NodeQueue::kMerge);
+}
+
+void MeshBody::split_one(NodeId node) {
+    const uint32_t record = record_of(node);
+    const NodeId parent = mesh().hierarchy.parent[node];
+    if (parent != kNoNode) {
+        if (ranks_.queue(record_of(parent)) == NodeQueue::kLeave) stay(record_of(parent));
+        ranks_.dequeue(record_of(parent));
+    }
+    const glm::vec3 shown_m = mesh().hierarchy.position[node] + glides_.displacement_m(node);
+    drop_glide(node);
+    cut_.vsplit(node);
+    ++operations_[OperationKind::kVsplit];
+    ranks_.unlink(record);
+    admit_children(node);
+    // Its evaluation stands; that it does not watch for a fall yet only delays a collapse until it next wakes.
+    ranks_.enqueue(record, NodeQueue::kMerge);
+    if (!is_gliding(record)) return note_pop(record);
+    for (NodeId child : mesh().hierarchy.children[record]) {
+        const glm::vec3 from_m = shown_m - mesh().hierarchy.position[child];
+        if (from_m != glm::vec3(0.0f)) glides_.come(child, from_m, now_s_);
+    }
+}
+
+/// Collapses two active children; their node becomes a candidate again.
+void MeshBody::merge_one(uint32_t record) {
+    const NodeId node = node_of(record);
+    if (ranks_.queue(record) != NodeQueue::kLeave) note_pop(record);
+    for (NodeId child : mesh().hierarchy.children[record]) {
+        if (!mesh().is_leaf(child)) ranks_.dequeue(record_of(child));
+        drop_glide(child);
+    }
+    ranks_.unlink(record);
+    cut_.ecol(node);
+    ++operations_[OperationKind::kEcol];
+    ranks_.enqueue(record, NodeQueue::kSplit);  // its evaluation watched for a rise, too
+    admit_parent(node);
+    ranks_.release_blocked_by(record);
+}
+
+Step MeshBody::refine() {
+    Step step;
+    if (refine_error_px() <= 0.0) return step;
+    const auto before = static_cast<int64_t>(triangles());
+    const BucketQueue& splits = ranks_.queue_at(NodeQueue::kSplit);
+    chain_.assign(1, node_of(splits.head(splits.highest())));
+    while (!chain_.empty()) {
+        const NodeId node = chain_.back(), blocker = cut_.split_blocker(node);
+        if (blocker != kNoNode) {
+            chain_.push_back(blocker);
+            continue;
+        }
+        split_one(node);
+        ++step.steps;
+        chain_.pop_back();
+    }
+    step.triangle_delta = static_cast<int64_t>(triangles()) - before;
+    return step;
+}
+
+Step MeshBody::coarsen(double limit_px) {
+    Step step;
+    if (coarsen_error_px() > limit_px) return step;
+    const auto before = static_cast<int64_t>(triangles());
+    const BucketQueue& merges = ranks_.queue_at(NodeQueue::kMerge);
+    const uint32_t record = merges.head(merges.lowest());
+    const Bucket tolerance = ranks_.scale().bucket_of(ranks_.scale().reference_px);
+    const bool is_unseen = ranks_.bucket(record) + kNoGlideMargin <= tolerance;
+    if (is_unseen || !leave(record)) merge_one(record);
+    step.steps = 1;
+    step.triangle_delta = static_cast<int64_t>(triangles()) - before;
+    return step;
+}
+
+}  // namespace lod

@@ -1,0 +1,128 @@
+// Gliding: split vertices glide home, superfluous ones glide to their node before they are collapsed, and what still
+// jumps is told.
+#include <algorithm>
+
+#include "lod/progressive/mesh_body.h"
+#include "lod/screen_error.h"
+
+namespace lod {
+namespace {
+
+/// Pixels a displacement costs at a place in view; 0 out of view. The bound of lod/screen_error.h.
+double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place, const glm::vec3& way) {
+    const double length = static_cast<double>(glm::length(way));
+    if (length == 0.0) return 0.0;
+    double worst = 0.0;
+    for (const AnchoredEye& eye : eyes) {
+        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(place) - eye.eye);
+        if (distance_outside_m(eye.metric, centre, length) > 0.0) continue;
+        worst = std::max(worst, screen_error_px(eye.metric, centre, length, length));
+    }
+    return worst;
+}
+
+}  // namespace
+
+void MeshBody::drop_glide(NodeId node) {
+    const NodeGlide* glide = glides_.find(node);
+    if (glide == nullptr) return;
+    if (glide->shown_m != glm::vec3(0.0f)) strayed_.push_back(node);
+    glides_.drop(node);
+}
+
+/// The children of a node in view jump to it, or from it, not in a cut.
+void MeshBody::note_pop(uint32_t record) {
+    if (is_cut_ || ranks_.bucket(record) <= kFlatBucket) return;
+    const glm::vec3 place = mesh().hierarchy.position[node_of(record)];
+    for (NodeId child : mesh().hierarchy.children[record]) {
+        const glm::vec3 shown = mesh().hierarchy.position[child] + glides_.displacement_m(child);
+        jump_px_ = std::max(jump_px_, displacement_px(ranks_.eyes(), place, shown - place));
+    }
+}
+
+/// Sends both children to their node; false when they must jump, or need not move.
+bool MeshBody::leave(uint32_t record) {
+    if (!is_gliding(record)) return false;
+    bool moves = false;
+    for (NodeId child : mesh().hierarchy.children[record]) {
+        const glm::vec3 to_m = mesh().hierarchy.position[node_of(record)] - mesh().hierarchy.position[child];
+        if (to_m == glm::vec3(0.0f) && glides_.find(child) == nullptr) continue;
+        glides_.leave(child, to_m, now_s_);
+        moves = true;
+    }
+    if (!moves) return false;
+    ranks_.unlink(record);
+    ranks_.enqueue(record, NodeQueue::kLeave);
+    leaving_triangles_ += mesh().removed(record).size();
+    return true;
+}
+
+/// They are wanted after all.
+void MeshBody::stay(uint32_t record) {
+    for (NodeId child : mesh().hierarchy.children[record])
+        glides_.turn_home(child, now_s_);
+    leaving_triangles_ -= mesh().removed(record).size();
+    ranks_.unlink(record);
+    ranks_.enqueue(record, NodeQueue::kMerge);
+}
+
+bool MeshBody::has_left(uint32_t record) const {
+    const auto& children = mesh().hierarchy.children[record];
+    return std::all_of(children.begin(), children.end(), [&](NodeId child) {
+        const NodeGlide* glide = glides_.find(child);
+        return glide == nullptr || glide->has_arrived();
+    });
+}
+
+/// Moves what is under way; collapses what has arrived, or calls it back where that is no longer legal.
+void MeshBody::advance_glides() {
+    glides_.advance(now_s_);
+    measure_glides();
+    back_.clear();
+    for (const NodeGlide& glide : glides_.all()) {
+        if (glide.leaves && glide.has_arrived())
+            back_.push_back(record_of(mesh().hierarchy.parent[glide.node]));
+    }
+    std::sort(back_.begin(), back_.end());
+    for (uint32_t record : back_) {
+        if (ranks_.queue(record) != NodeQueue::kLeave || !has_left(record)) continue;
+        if (cut_.collapse_blocker(node_of(record)) != kNoNode) {
+            stay(record);
+            continue;
+        }
+        leaving_triangles_ -= mesh().removed(record).size();
+        merge_one(record);
+    }
+}
+
+void MeshBody::measure_glides() {
+    glide_px_ = jump_px_ = 0.0;
+    for (const NodeGlide& glide : glides_.all()) {
+        const glm::vec3 place = mesh().hierarchy.position[glide.node];
+        glide_px_ = std::max(glide_px_, displacement_px(ranks_.eyes(), place, glide.shown_m));
+        jump_px_ = std::max(jump_px_, displacement_px(ranks_.eyes(), place, glide.shown_m - glide.before_m));
+    }
+}
+
+std::string MeshBody::validate() const {
+    std::string fault = cut_.validate();
+    if (fault.empty()) fault = ranks_.validate();
+    if (!fault.empty()) return fault;
+    uint64_t leaving = 0;
+    for (uint32_t record = 0; record < mesh().hierarchy.collapse_count(); ++record) {
+        const NodeId node = node_of(record);
+        const NodeQueue queue = ranks_.queue(record);
+        const bool is_merge = !cut_.is_active(node) && cut_.are_children_active(node);
+        const bool is_right = cut_.is_active(node) ? queue == NodeQueue::kSplit
+                              : is_merge           ? queue > NodeQueue::kSplit
+                                                   : queue == NodeQueue::kNone;
+        if (!is_right) return "node " + std::to_string(node) + " is in the wrong queue";
+        if (queue == NodeQueue::kLeave) leaving += mesh().removed(record).size();
+    }
+    for (const NodeGlide& glide : glides_.all()) {
+        if (!cut_.is_active(glide.node)) return "node " + std::to_string(glide.node) + " glides and is gone";
+    }
+    return leaving == leaving_triangles_ ? "" : "miscounts what leaves";
+}
+
+}  // namespace lod
