@@ -10,10 +10,13 @@ namespace lod {
 MeshCut::MeshCut(const ProgressiveMesh& mesh)
     : mesh_(&mesh), triangle_flags_(mesh.triangle_count(), 0), is_active_(mesh.hierarchy.node_count(), 0) {
     corners_.reserve(3 * size_t{mesh.triangle_count()});
+    vertices_.reserve(3 * size_t{mesh.triangle_count()});
     touched_.reserve(mesh.triangle_count());
     for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
         corners_.insert(corners_.end(), mesh.last_corners[triangle].begin(),
                         mesh.last_corners[triangle].end());
+        vertices_.insert(vertices_.end(), mesh.last_vertices[triangle].begin(),
+                         mesh.last_vertices[triangle].end());
         if (mesh.remover[triangle] != kNoNode) continue;
         triangle_flags_[triangle] = kDrawn;
         touch(triangle);
@@ -69,9 +72,12 @@ void MeshCut::vsplit(NodeId node) {
     const uint32_t collapse = mesh_->collapse_of(node);
     const auto& children = mesh_->hierarchy.children[collapse];
     for (uint32_t child = 0; child < 2; ++child) {
-        for (CornerId corner : mesh_->kept(collapse, child)) {
-            corners_[corner] = children[child];
-            touch(corner / 3);
+        const std::span<const CornerId> kept = mesh_->kept(collapse, child);
+        const std::span<const std::array<VertexId, 2>> shown = mesh_->kept_vertices(collapse, child);
+        for (size_t i = 0; i < kept.size(); ++i) {
+            corners_[kept[i]] = children[child];
+            vertices_[kept[i]] = shown[i][0];
+            touch(kept[i] / 3);
         }
         is_active_[children[child]] = 1;
     }
@@ -88,16 +94,18 @@ void MeshCut::vsplit(NodeId node) {
 void MeshCut::ecol(NodeId node) {
     DCHECK(are_children_active(node) && collapse_blocker(node) == kNoNode);
     const uint32_t collapse = mesh_->collapse_of(node);
-    for (CornerId corner : mesh_->star(node)) {
-        corners_[corner] = node;
-        touch(corner / 3);
+    const VertexHierarchy& h = mesh_->hierarchy;
+    for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i) {
+        corners_[h.kept[i]] = node;
+        vertices_[h.kept[i]] = h.kept_vertex[i][1];
+        touch(h.kept[i] / 3);
     }
     const std::span<const uint32_t> removed = mesh_->removed(collapse);
     for (uint32_t triangle : removed) {
         triangle_flags_[triangle] = static_cast<uint8_t>(triangle_flags_[triangle] & ~kDrawn);
         touch(triangle);
     }
-    for (NodeId child : mesh_->hierarchy.children[collapse])
+    for (NodeId child : h.children[collapse])
         is_active_[child] = 0;
     is_active_[node] = 1;
     drawn_count_ -= static_cast<uint32_t>(removed.size());
@@ -133,6 +141,9 @@ std::string MeshCut::validate() const {
         ++drawn;
         const auto at = corners(t);
         if (at[0] != a || at[1] != b || at[2] != c) return name + " has a wrong corner";
+        for (size_t i = 0; i < 3; ++i) {
+            if (h.vertex_node[vertices(t)[i]] != at[i]) return name + " shows a vertex of another node";
+        }
         const NodeId youngest = std::max({a, b, c});
         if (std::min({h.parent[a], h.parent[b], h.parent[c]}) <= youngest)
             return name + " joins nodes that the build never saw together";

@@ -34,6 +34,10 @@ class MeshCut {
     std::span<const NodeId, 3> corners(uint32_t triangle) const {
         return std::span<const NodeId, 3>(corners_.data() + 3 * size_t{triangle}, 3);
     }
+    /// What those corners show.
+    std::span<const VertexId, 3> vertices(uint32_t triangle) const {
+        return std::span<const VertexId, 3>(vertices_.data() + 3 * size_t{triangle}, 3);
+    }
     uint32_t triangle_count() const { return drawn_count_; }
     /// Equal cuts have equal hashes.
     uint64_t hash() const { return hash_; }
@@ -75,7 +79,8 @@ class MeshCut {
     }
 
     const ProgressiveMesh* mesh_;
-    std::vector<NodeId> corners_;  ///< [3 * triangles]; of one not drawn: when it last was
+    std::vector<NodeId> corners_;     ///< [3 * triangles]; of one not drawn: when it last was
+    std::vector<VertexId> vertices_;  ///< likewise
     std::vector<uint8_t> triangle_flags_, is_active_;
     std::vector<uint32_t> touched_;
     uint32_t drawn_count_ = 0;

@@ -54,7 +54,7 @@ class MeshFront final : public Front {
     uint32_t body_count() const { return static_cast<uint32_t>(bodies_.size()); }
     const MeshBody& body(uint32_t index) const { return bodies_[index].body; }
     /// Draw items of one view, at most.
-    uint32_t item_count() const { return 2 * body_count(); }
+    uint32_t item_count() const { return body_count(); }
     /// Evaluations since construction.
     uint64_t evaluations() const;
 

@@ -1,10 +1,10 @@
 // MeshSheet: the triangles of one body's cut in its part of the geometry pool, rewritten only where they changed.
 //
-//     indices   [ opaque slots ........ free | glass slots .... free ]   one draw item each
-//     vertices  [ node 0 | node 1 | … ]                                 the node's id is its place
+//     indices   [ slot 0 | slot 1 | … ........ free ]   one draw item
+//     vertices  [ vertex 0 | vertex 1 | … ]             a drawn vertex's id is its place
 //
-// A triangle keeps its slot while it is drawn; where one goes, the last of its class takes the slot. A vertex is
-// written when it is first drawn and stays; only while it glides it is written every frame.
+// A triangle keeps its slot while it is drawn; where one goes, the last takes the slot. A vertex is written when it is
+// first drawn and stays; only while its node glides it is written every frame.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ class MeshSheet {
     /// @param strayed  vertices that were last drawn off their places and do not glide any more
     void update(MeshCut& cut, const NodeGlides& glides, std::span<const NodeId> strayed, StagedWrites& out);
 
-    /// Up to two items, opaque before glass.
+    /// Its one item, or none.
     void emit(uint32_t instance, std::vector<DrawItem>& out) const;
 
     /// Compares the slots with the cut; the cut must have no untold change. Empty, or one line.
@@ -54,28 +54,24 @@ class MeshSheet {
     static constexpr uint32_t kNoSlot = UINT32_MAX;
     static constexpr uint32_t kPage = 32;  ///< triangles written together, 384 bytes
 
-    struct Class {
-        uint32_t first_triangle = 0;        ///< its first slot, in triangles from the region's first index
-        std::vector<uint32_t> triangle_of;  ///< [slots in use]
-        std::vector<uint64_t> dirty;        ///< a bit per page
-    };
-    Class& class_of(uint32_t triangle) { return classes_[mesh_->is_glass[triangle]]; }
-    void mark(Class& of, uint32_t slot) { of.dirty[slot / kPage / 64] |= uint64_t{1} << (slot / kPage % 64); }
+    void mark(uint32_t slot) { dirty_[slot / kPage / 64] |= uint64_t{1} << (slot / kPage % 64); }
     void take(const MeshCut& cut, uint32_t triangle);
-    void want_vertex(NodeId node) {
-        if (is_written_[node]) return;
-        is_written_[node] = 1;
-        fresh_.push_back(node);
+    void want_vertex(VertexId vertex) {
+        if (is_written_[vertex]) return;
+        is_written_[vertex] = 1;
+        fresh_.push_back(vertex);
     }
-    void stage_vertex(NodeId node, const glm::vec3& displacement_m, StagedWrites& out);
-    void stage_pages(const MeshCut& cut, Class& of, StagedWrites& out);
+    void recall(NodeId node, bool is_active);
+    void stage_vertex(VertexId vertex, const glm::vec3& displacement_m, StagedWrites& out);
+    void stage_pages(const MeshCut& cut, StagedWrites& out);
 
     const ProgressiveMesh* mesh_;
     PoolRegion region_;
-    std::vector<uint32_t> slot_of_;    ///< [triangles]
-    std::array<Class, 2> classes_;     ///< opaque, glass
-    std::vector<uint8_t> is_written_;  ///< [nodes]
-    std::vector<NodeId> fresh_;        ///< to be written with this update
+    std::vector<uint32_t> slot_of_;      ///< [triangles]
+    std::vector<uint32_t> triangle_of_;  ///< [slots in use]
+    std::vector<uint64_t> dirty_;        ///< a bit per page
+    std::vector<uint8_t> is_written_;    ///< [vertices]
+    std::vector<VertexId> fresh_;        ///< to be written with this update
 };
 
 }  // namespace lod

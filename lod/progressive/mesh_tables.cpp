@@ -1,10 +1,10 @@
 #include "lod/progressive/mesh_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lod/base/check.h"
-#include "lod/draw_list.h"
 
 namespace lod {
 namespace {
@@ -32,14 +32,31 @@ void index_leaf_corners(ProgressiveMesh& mesh) {
 void replay(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
     mesh.last_corners = h.triangles;
+    mesh.last_vertices = h.triangle_vertices;
     mesh.remover.assign(h.triangles.size(), kNoNode);
     for (uint32_t collapse = 0; collapse < h.collapse_count(); ++collapse) {
         const NodeId node = h.leaf_count + collapse;
         for (uint32_t triangle : mesh.removed(collapse))
             mesh.remover[triangle] = node;
-        for (CornerId corner : mesh.star(node))
+        for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i) {
+            const CornerId corner = h.kept[i];
             mesh.last_corners[corner / 3][corner % 3] = node;
+            mesh.last_vertices[corner / 3][corner % 3] = h.kept_vertex[i][1];
+        }
     }
+}
+
+void index_further_vertices(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    mesh.further_begin.assign(h.node_count() + 1, 0);
+    for (VertexId vertex = h.node_count(); vertex < h.vertex_count(); ++vertex)
+        ++mesh.further_begin[h.vertex_node[vertex] + 1];
+    for (size_t node = 0; node < h.node_count(); ++node)
+        mesh.further_begin[node + 1] += mesh.further_begin[node];
+    mesh.further_vertices.resize(h.vertex_count() - h.node_count());
+    std::vector<uint32_t> next(mesh.further_begin.begin(), mesh.further_begin.end() - 1);
+    for (VertexId vertex = h.node_count(); vertex < h.vertex_count(); ++vertex)
+        mesh.further_vertices[next[h.vertex_node[vertex]]++] = vertex;
 }
 
 void gather_bounds(ProgressiveMesh& mesh) {
@@ -75,20 +92,21 @@ void enclose(ProgressiveMesh& mesh) {
 
 }  // namespace
 
-ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy) {
+ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass) {
     ProgressiveMesh mesh;
+    mesh.is_glass = is_glass;
     mesh.hierarchy = std::move(hierarchy);
     const VertexHierarchy& h = mesh.hierarchy;
     CHECK(h.triangles.size() < kNoNode / 3 && h.parent.size() == h.node_count());
     CHECK(h.kept_begin.size() == 2 * size_t{h.collapse_count()} + 1);
     CHECK(h.removed_begin.size() == size_t{h.collapse_count()} + 1);
+    CHECK(h.kept_vertex.size() == h.kept.size() && h.vertex_count() >= h.node_count());
     index_leaf_corners(mesh);
+    index_further_vertices(mesh);
     replay(mesh);
     gather_bounds(mesh);
     enclose(mesh);
-    mesh.is_glass.reserve(h.triangles.size());
-    for (const auto& triangle : h.triangles)
-        mesh.is_glass.push_back(h.colour[triangle[0]].w == static_cast<uint8_t>(Material::kGlass));
+
     for (NodeId node = 0; node < h.node_count(); ++node) {
         if (h.parent[node] == kNoNode) mesh.roots.push_back(node);
     }

@@ -25,16 +25,19 @@ struct NodeBound {
 /// A hierarchy and its tables; never changes while a front looks at it.
 struct ProgressiveMesh {
     VertexHierarchy hierarchy;
+    bool is_glass = false;  ///< all of it, or none
 
     std::vector<uint32_t> leaf_begin;    ///< [leaves + 1] into leaf_corners
     std::vector<CornerId> leaf_corners;  ///< corners of the full mesh, by their vertex
     std::vector<std::array<NodeId, 3>>
-        last_corners;               ///< [triangles] before its removal, or of the coarsest mesh
-    std::vector<NodeId> remover;    ///< [triangles] node whose collapse removes it; kNoNode: none
-    std::vector<uint8_t> is_glass;  ///< [triangles]
-    std::vector<NodeBound> bounds;  ///< [collapses]
-    std::vector<NodeId> roots;      ///< nodes without parent, rising
-    glm::dvec3 centre{0.0};         ///< sphere around every node's position
+        last_corners;  ///< [triangles] before its removal, or of the coarsest mesh
+    std::vector<std::array<VertexId, 3>> last_vertices;  ///< ... and what its corners show then
+    std::vector<NodeId> remover;             ///< [triangles] node whose collapse removes it; kNoNode: none
+    std::vector<uint32_t> further_begin;     ///< [nodes + 1] into further_vertices
+    std::vector<VertexId> further_vertices;  ///< what a node shows beside the vertex with its own id
+    std::vector<NodeBound> bounds;           ///< [collapses]
+    std::vector<NodeId> roots;               ///< nodes without parent, rising
+    glm::dvec3 centre{0.0};                  ///< sphere around every node's position
     double radius_m = 0.0;
 
     uint32_t triangle_count() const { return static_cast<uint32_t>(hierarchy.triangles.size()); }
@@ -51,6 +54,15 @@ struct ProgressiveMesh {
     std::span<const CornerId> kept(uint32_t collapse, uint32_t child) const {
         const uint32_t begin = hierarchy.kept_begin[2 * collapse + child];
         return {hierarchy.kept.data() + begin, hierarchy.kept_begin[2 * collapse + child + 1] - begin};
+    }
+    /// What those corners show before the collapse and after.
+    std::span<const std::array<VertexId, 2>> kept_vertices(uint32_t collapse, uint32_t child) const {
+        const uint32_t begin = hierarchy.kept_begin[2 * collapse + child];
+        return {hierarchy.kept_vertex.data() + begin, hierarchy.kept_begin[2 * collapse + child + 1] - begin};
+    }
+    /// What a node shows beside the vertex with its own id.
+    std::span<const VertexId> further(NodeId node) const {
+        return {further_vertices.data() + further_begin[node], further_begin[node + 1] - further_begin[node]};
     }
     /// The corners a node is born with.
     std::span<const CornerId> star(NodeId node) const {
@@ -70,8 +82,8 @@ inline CornerId previous_corner(CornerId corner) {
     return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-/// Derives the tables. The hierarchy must be one that validate_hierarchy() finds nothing wrong with.
+/// Derives the tables. The hierarchy must be one that fault_of() finds nothing wrong with (hierarchy_check.h).
 /// Cost: one replay of the collapses.
-ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy);
+ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass = false);
 
 }  // namespace lod

@@ -206,6 +206,15 @@ PlainHistory make_plain_history(const PlainMesh& mesh) {
         if (bench.is_border(b)) std::swap(a, b);
         if (may_go(bench, a, b)) collapse(bench, a, b);
     }
+    h.triangle_vertices = h.triangles;
+    for (NodeId node = 0; node < h.node_count(); ++node)
+        h.vertex_node.push_back(node);
+    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
+        for (uint32_t i = h.kept_begin[2 * k]; i < h.kept_begin[2 * k + 2]; ++i) {
+            const bool is_first = i < h.kept_begin[2 * k + 1];
+            h.kept_vertex.push_back({h.children[k][is_first ? 0 : 1], h.leaf_count + k});
+        }
+    }
     h.normal.assign(h.node_count(), {0, 0, 1});
     h.colour.assign(h.node_count(), {200, 200, 200, static_cast<uint8_t>(lod::Material::kPaint)});
     bound_all(bench);
