@@ -4,8 +4,10 @@
 // the bucket. Ties inside a bucket go to the latest comer. A record has one link, so it is in one queue at most.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -22,18 +24,18 @@ inline constexpr Bucket kHiddenBucket = 0;
 inline constexpr Bucket kFlatBucket = 1;
 inline constexpr Bucket kFirstErrorBucket = 2;
 
-/// Turns errors into buckets such that `reference_px` is the edge between two of them.
+/// Turns errors into buckets such that `reference_px` is the edge between two of them. A bucket is the bits of the
+/// error less those of the reference, without the lowest twenty: no rounding, and no division.
 struct BucketScale {
-    float reference_px = 1.0f;  ///< > 0
+    float reference_px = 1.0f;  ///< in [1e-20, 1e20]
 
-    /// Lowest edge that is told apart: 2^-12 references.
-    static constexpr uint32_t kBaseBits = (127u - 12u) << 3;
+    /// The reference's own bucket: twelve octaves above the lowest edge that is told apart.
+    static constexpr int32_t kReferenceBucket = 12 * 8 + int32_t(kFirstErrorBucket);
 
     /// Four at a time, as whole numbers.
     /// @param error_px  > 0, finite
     Int4 buckets_of(Float4 error_px) const {
-        const Int4 bits = std::bit_cast<Int4>(error_px / reference_px) >> 20;
-        const Int4 bucket = bits - int32_t(kBaseBits) + int32_t(kFirstErrorBucket);
+        const Int4 bucket = ((std::bit_cast<Int4>(error_px) - reference_bits()) >> 20) + kReferenceBucket;
         const Int4 lowest = Int4{} + int32_t(kFirstErrorBucket);
         const Int4 highest = Int4{} + int32_t(kBucketCount - 1u);
         return bucket < lowest ? lowest : bucket > highest ? highest : bucket;
@@ -42,28 +44,37 @@ struct BucketScale {
 
     /// Errors of a bucket are in [lower, upper); the topmost has no upper edge.
     float lower_px(Bucket bucket) const {
-        if (bucket <= kFirstErrorBucket) return 0.0f;
-        return std::bit_cast<float>((kBaseBits + bucket - kFirstErrorBucket) << 20) * reference_px;
+        return bucket <= kFirstErrorBucket ? 0.0f : lowers_px(Int4{} + int32_t(bucket))[0];
     }
     float upper_px(Bucket bucket) const {
-        if (bucket <= kFlatBucket) return 0.0f;
-        if (bucket == kBucketCount - 1) return std::numeric_limits<float>::max();
-        return std::bit_cast<float>((kBaseBits + bucket - kFirstErrorBucket + 1u) << 20) * reference_px;
+        return bucket <= kFlatBucket ? 0.0f : uppers_px(Int4{} + int32_t(bucket))[0];
     }
 
     /// lower_px and upper_px of four buckets that hold errors.
     Float4 lowers_px(Int4 bucket) const {
-        const Float4 edge =
-            std::bit_cast<Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket)) << 20) * reference_px;
-        return bucket <= int32_t(kFirstErrorBucket) ? Float4{} : edge;
+        return bucket <= int32_t(kFirstErrorBucket) ? Float4{} : edges_below_px(bucket);
     }
     Float4 uppers_px(Int4 bucket) const {
-        const Float4 edge =
-            std::bit_cast<Float4>((bucket + int32_t(kBaseBits - kFirstErrorBucket + 1u)) << 20) *
-            reference_px;
-        return bucket == int32_t(kBucketCount - 1u) ? splat(std::numeric_limits<float>::max()) : edge;
+        return bucket == int32_t(kBucketCount - 1u) ? splat(std::numeric_limits<float>::max())
+                                                    : edges_below_px(bucket + 1);
+    }
+
+  private:
+    int32_t reference_bits() const { return std::bit_cast<int32_t>(reference_px); }
+    Float4 edges_below_px(Int4 bucket) const {
+        return std::bit_cast<Float4>(((bucket - kReferenceBucket) << 20) + reference_bits());
     }
 };
+
+/// The scale of whoever refines what is worse than a tolerance: its edge is the tolerance, rounded down, so that no
+/// bucket holds errors of both sides.
+/// @param tolerance_px  0: 1
+inline BucketScale scale_at(double tolerance_px) {
+    if (!(tolerance_px > 0.0)) return {};
+    const double reference_px = std::clamp(tolerance_px, 1e-20, 1e20);
+    const float nearest_px = static_cast<float>(reference_px);
+    return {double(nearest_px) > reference_px ? std::nextafter(nearest_px, 0.0f) : nearest_px};
+}
 
 /// Intrusive links of one record.
 struct BucketLink {

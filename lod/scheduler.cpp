@@ -47,11 +47,14 @@ class Bargain {
     /// One operation; false when there is nothing worth doing.
     bool step() {
         const uint64_t triangles = total_triangles(fronts_);
+        const bool is_over = triangles > budget_.max_triangles;
+        const Choice high = is_over ? Choice{} : worst(fronts_);
+        const bool is_needed = high.front && high.error_px > budget_.tolerance_px;
+        // The usual step first: nobody need say what could go while there is room.
+        if (is_needed && triangles + kLargestRefinement <= budget_.max_triangles) return refine(high);
         const Choice low = cheapest(fronts_);
-        if (triangles > budget_.max_triangles && low.front) return give_up(low);
-        const Choice high = worst(fronts_);
-        if (high.front && high.error_px > budget_.tolerance_px) {
-            if (triangles + kLargestRefinement <= budget_.max_triangles) return refine(high);
+        if (is_over && low.front) return give_up(low);
+        if (is_needed) {
             const bool is_worth_it = !low.front || high.error_px > low.error_px * budget_.swap_ratio;
             if (is_worth_it && triangles < budget_.max_triangles) return refine(high);
             if (is_worth_it && low.front && is_gain(high)) return give_up(low);

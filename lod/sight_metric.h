@@ -48,6 +48,12 @@ struct FourEvaluations {
     Float4 distance_m{};  ///< from the nearest eye to the centre
 };
 
+/// An eye's numbers in all four lanes.
+struct EyeLanes {
+    Float4 eye[3], rotation[9];  ///< rotation: column by column
+    Float4 tan_x, tan_y, cos_x, cos_y, inverse_stretch, stretch, near_m, lambda_px;
+};
+
 /// One eye, ready for loops: the view's metric in single precision, the eye relative to the anchor.
 struct AnchoredEye {
     explicit AnchoredEye(const View& view, const glm::dvec3& anchor)
@@ -63,13 +69,23 @@ struct AnchoredEye {
           stretch(static_cast<float>(metric.stretch)),
           near_m(static_cast<float>(metric.near_m)),
           // 2^-18 covers the roundings of the few operations below.
-          lambda_px(static_cast<float>(metric.lambda_px * (1.0 + 0x1p-18))) {}
+          lambda_px(static_cast<float>(metric.lambda_px * (1.0 + 0x1p-18))) {
+        for (int i = 0; i < 3; ++i)
+            lanes.eye[i] = splat(eye_f[i]);
+        for (int i = 0; i < 9; ++i)
+            lanes.rotation[i] = splat(rotation[i / 3][i % 3]);
+        lanes.tan_x = splat(tan_x), lanes.tan_y = splat(tan_y);
+        lanes.cos_x = splat(cos_x), lanes.cos_y = splat(cos_y);
+        lanes.inverse_stretch = splat(inverse_stretch), lanes.stretch = splat(stretch);
+        lanes.near_m = splat(near_m), lanes.lambda_px = splat(lambda_px);
+    }
 
     ViewMetric metric;
     glm::dvec3 eye;
     glm::vec3 eye_f;
     glm::mat3 rotation;
     float tan_x, tan_y, cos_x, cos_y, inverse_stretch, stretch, near_m, lambda_px;
+    EyeLanes lanes;
 
     glm::vec3 to_eye(const glm::vec3& anchored) const { return rotation * (anchored - eye_f); }
 
@@ -92,12 +108,12 @@ struct FourDepthErrors {
     Float4 depth_m;
     Float4 step_m;  ///< moving by x * step_m, x <= 0.06, changes error_px by a factor of at most 1 + x
 };
-inline FourDepthErrors depth_errors(const AnchoredEye& eye, const FourBounds& bound, Float4 centre_z,
+inline FourDepthErrors depth_errors(const EyeLanes& eye, const FourBounds& bound, Float4 centre_z,
                                     Float4 distance) {
-    const Float4 near_m = splat(eye.near_m), one = splat(1.0f);
+    const Float4 near_m = eye.near_m, one = splat(1.0f);
     const Float4 front = -centre_z - bound.radius_m, far_m = distance + bound.radius_m;
     const Float4 depth = max(max(front, (distance - bound.radius_m) * eye.inverse_stretch), near_m);
-    const Float4 slant = min(splat(eye.stretch), far_m / max(front, near_m));
+    const Float4 slant = min(eye.stretch, far_m / max(front, near_m));
     // 1 / sqrt(4 - 2.3 q^2) >= 1/2 + q^2 / 7: a tangent, and safe.
     const Float4 q = min(depth / far_m, one);
     return {eye.lambda_px * bound.error_m * max(slant, one) / depth, depth,
@@ -113,12 +129,12 @@ struct FourSights {
     Float4 seen_m = splat(-1.0f);    ///< how far until the last eye has lost it
     Float4 nearest_m = splat(kFar), depth_m = splat(kFar), step_m = splat(kFar);
 
-    void look(const AnchoredEye& eye, const FourBounds& bound) {
-        const Float4 ax = bound.x - eye.eye_f.x, ay = bound.y - eye.eye_f.y, az = bound.z - eye.eye_f.z;
-        const glm::mat3& r = eye.rotation;
-        const Float4 x = r[0].x * ax + r[1].x * ay + r[2].x * az;
-        const Float4 y = r[0].y * ax + r[1].y * ay + r[2].y * az;
-        const Float4 z = r[0].z * ax + r[1].z * ay + r[2].z * az;
+    void look(const EyeLanes& eye, const FourBounds& bound) {
+        const Float4 ax = bound.x - eye.eye[0], ay = bound.y - eye.eye[1], az = bound.z - eye.eye[2];
+        const Float4* r = eye.rotation;
+        const Float4 x = r[0] * ax + r[3] * ay + r[6] * az;
+        const Float4 y = r[1] * ax + r[4] * ay + r[7] * az;
+        const Float4 z = r[2] * ax + r[5] * ay + r[8] * az;
         const Float4 outside =
             max(max((abs(x) + z * eye.tan_x) * eye.cos_x, (abs(y) + z * eye.tan_y) * eye.cos_y),
                 eye.near_m + z) -
@@ -144,14 +160,16 @@ inline FourEvaluations evaluate(const FourBounds& bound, std::span<const Anchore
                                 const BucketScale& scale, Int4 watches_fall) {
     FourSights sight;
     for (const AnchoredEye& eye : eyes)
-        sight.look(eye, bound);
+        sight.look(eye.lanes, bound);
     const Float4 worst_px = max(sight.worst_px, splat(1e-30f));
     const Float4 beyond_px = worst_px * (1.0f + kEdgeMargin);
     const Int4 bucket = scale.buckets_of(beyond_px);
     Float4 guard = sight.step_m * (1.0f - worst_px / scale.uppers_px(bucket));
     guard = min(min(guard, 0.06f * sight.depth_m), sight.hidden_m);
-    const Float4 fall = 1.0f - (1.0f - kEdgeMargin) * scale.lowers_px(bucket) / beyond_px;
-    guard = watches_fall ? min(min(guard, sight.seen_m), sight.step_m * fall) : guard;
+    if (any(watches_fall)) {
+        const Float4 fall = 1.0f - (1.0f - kEdgeMargin) * scale.lowers_px(bucket) / beyond_px;
+        guard = watches_fall ? min(min(guard, sight.seen_m), sight.step_m * fall) : guard;
+    }
     // An error of 0 stays 0 whatever the eye does, until it is out of view.
     const Int4 is_flat = bound.error_m == 0.0f, is_hidden = sight.worst_px < 0.0f;
     const Float4 flat_guard = watches_fall ? sight.seen_m : splat(FourSights::kFar);

@@ -27,13 +27,16 @@ glm::dvec2 longest_cell_m(const DiamondTable& table) {
 
 BoundMaker::BoundMaker(const DiamondTable& table) : frame_(table.frame), domain_(table.domain) {
     const Domain& domain = table.domain;
-    anchor_ = frame_.world_from_sample(domain.width / 2, domain.height / 2,
-                                       0.5 * (double(table.min_m) + double(table.max_m)));
-    is_planar_ = !frame_.world().has_datum;
-    if (is_planar_) {
-        origin_m_ = glm::dvec2(frame_.world_from_sample(0, 0, 0.0));
-        column_m_ = glm::dvec2(frame_.world_from_sample(1, 0, 0.0)) - origin_m_;
-        row_m_ = glm::dvec2(frame_.world_from_sample(0, 1, 0.0)) - origin_m_;
+    middle_ = {domain.width / 2, domain.height / 2};
+    middle_height_m_ = static_cast<float>(0.5 * (double(table.min_m) + double(table.max_m)));
+    anchor_ = frame_.world_from_sample(middle_.x, middle_.y, double(middle_height_m_));
+    if (!frame_.world().has_datum) {
+        const glm::dvec2 origin(frame_.world_from_sample(0, 0, 0.0));
+        const glm::dvec2 column = glm::dvec2(frame_.world_from_sample(1, 0, 0.0)) - origin;
+        const glm::dvec2 row = glm::dvec2(frame_.world_from_sample(0, 1, 0.0)) - origin;
+        cell_x_m_ = static_cast<float>(column.x);
+        cell_y_m_ = static_cast<float>(row.y);
+        is_upright_ = column.y == 0.0 && row.x == 0.0;
     }
     const glm::dvec2 cell = longest_cell_m(table);
     const auto chord = frame_.chord_error_per_cell2();

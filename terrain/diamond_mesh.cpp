@@ -96,23 +96,27 @@ void DiamondMesh::free_record(DiamondIndex index) {
     free_.push_back(index);
 }
 
-/// The diamond across a side, at the same level, and its side that faces back; kOutside where there is none (yet).
-/// Without branches: which of four neighbours exist is as good as random, and each must be fetched.
-DiamondIndex DiamondMesh::neighbour(const Diamond& d, uint32_t side, uint32_t& facing) const {
+/// The child that a diamond shares with its neighbour across a side, at the same level; kOutside where there is no
+/// such neighbour, or none that is split. Without branches: which of four neighbours exist is as good as random.
+DiamondIndex DiamondMesh::shared_child(const Diamond& d, uint32_t side) const {
     const uint32_t which = kSharedParent[side];
     const DiamondIndex parent = d.parent[which];
     const uint32_t block = is_record(parent) ? diamonds_[parent].kids : kNoKids;
-    const DiamondIndex other = kids_[block][(uint32_t(d.slot(which)) + kRingStep[side]) & 3];
-    facing = kFacing[side][other != kOutside && diamonds_[other].parent[0] == parent ? 0 : 1];
-    return other;
+    const DiamondIndex across = kids_[block][(uint32_t(d.slot(which)) + kRingStep[side]) & 3];
+    // Corner 0 stands for nobody: like whatever is not split, it has no children.
+    const Diamond& other = diamonds_[across == kOutside ? 0 : across];
+    return kids_[other.kids][kFacing[side][other.parent[0] == parent ? 0 : 1]];
 }
 
 DiamondIndex DiamondMesh::missing_parent(DiamondIndex index) const {
     const Diamond& d = diamonds_[index];
     for (uint32_t which = 0; which < 2; ++which) {
         if (d.parent[which] != kUnsplit) continue;
-        uint32_t facing = 0;
-        return neighbour(diamonds_[d.parent[1 - which]], uint32_t(d.slot(1 - which)), facing);
+        // Its neighbour across the side that it lies on; they share the diamond's parent on that side.
+        const Diamond& known = diamonds_[d.parent[1 - which]];
+        const uint32_t side = uint32_t(d.slot(1 - which)), shared = kSharedParent[side];
+        const uint32_t block = diamonds_[known.parent[shared]].kids;
+        return kids_[block][(uint32_t(known.slot(shared)) + kRingStep[side]) & 3];
     }
     return kOutside;
 }
@@ -125,20 +129,23 @@ void DiamondMesh::share_child(DiamondIndex child, DiamondIndex index, uint32_t s
     c.set_slot(free_place, side);
 }
 
-/// A new record for the child on a side of `parent`; kOutside where that is beyond the domain.
-DiamondIndex DiamondMesh::make_child(const Diamond& parent, DiamondIndex index, uint32_t side) {
-    const int direction = (parent.apex_dir + 2 * int(side) + 1) & 7;
-    const int level = parent.level + 1;
-    const GridPoint centre = step_from(parent.centre(), direction, domain_.child_step(parent.level));
-    if (!domain_.contains(centre)) return kOutside;
-    const GridPoint beyond = step_from(centre, direction, domain_.reach(level));
+/// Whether a point lies inside the domain, off its border.
+bool DiamondMesh::is_inside(GridPoint p) const {
+    const auto last = static_cast<unsigned>(domain_.side() - 1);
+    return static_cast<unsigned>(p.x - 1) < last && static_cast<unsigned>(p.y - 1) < last;
+}
+
+/// A new record for the child on a side of `parent`.
+DiamondIndex DiamondMesh::make_child(const Diamond& parent, DiamondIndex index, uint32_t side,
+                                     GridPoint centre) {
     Diamond c;
     c.x = static_cast<uint16_t>(centre.x);
     c.y = static_cast<uint16_t>(centre.y);
     c.parent[0] = index;
-    c.parent[1] = domain_.contains(beyond) ? kUnsplit : kOutside;
-    c.level = static_cast<uint16_t>(level) & 31;
-    c.apex_dir = static_cast<uint16_t>(direction + 4) & 7;
+    // A diamond on the border is half a diamond.
+    c.parent[1] = is_inside(centre) ? kUnsplit : kOutside;
+    c.level = static_cast<uint16_t>(parent.level + 1) & 31;
+    c.apex_dir = static_cast<uint16_t>(parent.apex_dir + 2 * side + 5) & 7;
     c.slot0 = side & 3;
     return add_record(c);
 }
@@ -153,18 +160,19 @@ uint32_t DiamondMesh::make_kids(DiamondIndex index, SplitOutcome& outcome) {
     }
     const Diamond parent = diamonds_[index];
     std::array<DiamondIndex, 4> kids;
-    for (uint32_t side = 0; side < 4; ++side) {
-        uint32_t facing = 0;
-        const DiamondIndex other = neighbour(parent, side, facing);
-        kids[side] = kids_[other == kOutside ? kNoKids : diamonds_[other].kids][facing];
-    }
+    for (uint32_t side = 0; side < 4; ++side)
+        kids[side] = shared_child(parent, side);
+    const bool is_whole = is_inside(parent.centre());
+    const int step = domain_.child_step(parent.level);
     for (uint32_t side = 0; side < 4; ++side) {
         if (kids[side] != kOutside) {
             share_child(kids[side], index, side);
             continue;
         }
-        kids[side] = make_child(parent, index, side);
-        if (kids[side] != kOutside) outcome.created[outcome.created_count++] = kids[side];
+        const GridPoint centre = step_from(parent.centre(), parent.apex_dir + 2 * int(side) + 1, step);
+        if (!is_whole && !domain_.contains(centre)) continue;
+        kids[side] = make_child(parent, index, side, centre);
+        outcome.created[outcome.created_count++] = kids[side];
     }
     kids_[block] = kids;
     return block;

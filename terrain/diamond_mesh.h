@@ -135,9 +135,10 @@ class DiamondMesh {
   private:
     DiamondIndex add_record(const Diamond& d);
     void free_record(DiamondIndex index);
-    DiamondIndex neighbour(const Diamond& d, uint32_t side, uint32_t& facing) const;
+    DiamondIndex shared_child(const Diamond& d, uint32_t side) const;
+    bool is_inside(GridPoint p) const;
     void share_child(DiamondIndex child, DiamondIndex index, uint32_t side);
-    DiamondIndex make_child(const Diamond& parent, DiamondIndex index, uint32_t side);
+    DiamondIndex make_child(const Diamond& parent, DiamondIndex index, uint32_t side, GridPoint centre);
     uint32_t make_kids(DiamondIndex index, SplitOutcome& outcome);
     DiamondIndex corner_at(DiamondIndex index, GridPoint point) const;
     bool drop_child(DiamondIndex child_index, DiamondIndex parent_index);

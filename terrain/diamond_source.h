@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "lod/base/float4.h"
+
 namespace terrain {
 
 /// Metres to a 16-bit logarithm, rounded up; 0 only for 0. Anything below 0.12 mm becomes 0.12 mm; above 524 km
@@ -17,6 +19,12 @@ inline float decode_length(uint16_t code) {
     return code == 0 ? 0.0f : std::bit_cast<float>((kBase + code - 1u) << 12);
 }
 
+/// Four at a time.
+inline lod::Float4 decode_lengths(lod::Int4 codes) {
+    constexpr int32_t kBase = (127 - 13) << 11;
+    return codes == 0 ? lod::Float4{} : std::bit_cast<lod::Float4>((codes + (kBase - 1)) << 12);
+}
+
 /// One diamond's facts.
 struct DiamondSource {
     float height_m = 0.0f;        ///< of the centre
@@ -27,7 +35,8 @@ struct DiamondSource {
 
     float error_m() const { return decode_length(error_code); }
     /// Largest height difference between the centre and a corner, rounded up.
-    float rise_m() const { return decode_length(rise_and_voids & 0xfff8u); }
+    float rise_m() const { return decode_length(rise_code()); }
+    uint16_t rise_code() const { return rise_and_voids & 0xfff8u; }
     void set_rise(float rise_m) {
         const unsigned code = std::min((encode_length(rise_m) + 7u) & ~7u, 0xfff8u);
         rise_and_voids = static_cast<uint16_t>(code | (rise_and_voids & 7u));

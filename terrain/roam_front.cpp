@@ -9,7 +9,8 @@
 namespace terrain {
 namespace {
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
+/// Candidates that may wait to be asked: enough for their facts to arrive and for four lanes to be full.
+constexpr uint32_t kUnaskedMost = 6;
 /// Once this share of the mesh must be looked at again, the frame is incoherent.
 constexpr size_t kIncoherentShare = 4;
 /// Subtrees are worth taking back whole when their error is this many buckets (two octaves) below the limit.
@@ -22,16 +23,17 @@ constexpr double kLongestFrame_s = 0.5;
 RoamFront::RoamFront(DiamondTable table, const RoamOptions& options, std::unique_ptr<PageLoader> loader)
     : table_(std::move(table)),
       options_(options),
+      scale_(lod::scale_at(options.tolerance_px)),
       bound_of_(table_),
       mesh_(table_.domain),
       loader_(std::move(loader)),
       glides_(options.glide_s) {
-    scale_.reference_px = options.tolerance_px > 0.0 ? static_cast<float>(options.tolerance_px) : 1.0f;
     reset();
 }
 
 void RoamFront::reset() {
     queues_ = {};
+    unasked_.clear();
     glides_.clear();
     leaving_triangles_ = 0;
     mesh_.clear();
@@ -43,7 +45,8 @@ void RoamFront::reset() {
         wake_m_[corner] = wake_rad_[corner] = kNever;
         tessellator_.add_vertex(corner);
     }
-    admit({&kRoot, 1});
+    announce({&kRoot, 1});
+    ask_all();
 }
 
 /// Room for every record the mesh has; the arrays follow its capacity, so that this rarely does anything.
@@ -60,116 +63,10 @@ void RoamFront::grow_arrays() {
     chain_.reserve(256);
 }
 
-/// @param some   one to four
-/// @param reach  how many radii around each count as its own
-FourEvaluations RoamFront::evaluate_some(std::span<const DiamondIndex> some, float reach) const {
-    FourBounds bounds;
-    lod::Int4 watches_fall{};
-    // Always four: a lane too many costs less than a branch that nobody can foresee.
-    for (size_t lane = 0; lane < 4; ++lane) {
-        const DiamondIndex index = some[lane < some.size() ? lane : 0];
-        bounds.set(static_cast<int>(lane), bound(index));
-        watches_fall[lane] = mesh_[index].is_split ? -1 : 0;
-    }
-    bounds.radius_m *= reach;
-    return evaluate(bounds, odometer_.eyes(), scale_, watches_fall);
-}
-
-/// Evaluates at most four records and sets when they wake next.
-void RoamFront::rank(std::span<const DiamondIndex> some) {
-    evaluations_ += some.size();
-    const FourEvaluations now = evaluate_some(some, 1.0f);
-    lod::Float4 walk_m, turn_rad;
-    odometer_.alarms(now, walk_m, turn_rad);
-    for (size_t lane = 0; lane < some.size(); ++lane) {
-        RankTag& tag = mesh_.tag(some[lane]);
-        tag.bucket = static_cast<Bucket>(now.bucket[lane]);
-        tag.stamp = stamp_ & kStampMask;
-        wake_m_[some[lane]] = walk_m[lane];
-        wake_rad_[some[lane]] = turn_rad[lane];
-    }
-}
-
-void RoamFront::enqueue(DiamondIndex index, Queue queue) {
-    DCHECK(queue_of(index) == Queue::kNone);
-    mesh_.tag(index).queue = static_cast<uint8_t>(queue) & 7;
-    queue_at(queue).push(ranks_, index, bucket_of(index));
-}
-
-void RoamFront::dequeue(DiamondIndex index) {
-    if (!is_queued(index)) return;
-    unlink(index);
-    wake_m_[index] = wake_rad_[index] = kNever;
-}
-
-/// Out of its queue, but still awake at its time.
-void RoamFront::unlink(DiamondIndex index) {
-    queue_at(queue_of(index)).remove(ranks_, index, bucket_of(index));
-    mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 7;
-}
-
-/// Evaluates at most four queued records anew and moves them to their buckets.
-void RoamFront::refresh(std::span<const DiamondIndex> some) {
-    std::array<Bucket, 4> before{};
-    for (size_t i = 0; i < some.size(); ++i)
-        before[i] = bucket_of(some[i]);
-    rank(some);
-    for (size_t i = 0; i < some.size(); ++i) {
-        if (bucket_of(some[i]) == before[i]) continue;
-        if (queue_of(some[i]) == Queue::kLeave && bucket_of(some[i]) > before[i]) {
-            queue_at(Queue::kLeave).remove(ranks_, some[i], before[i]);
-            mesh_.tag(some[i]).queue = static_cast<uint8_t>(Queue::kNone) & 7;
-            stay(some[i]);
-            enqueue(some[i], Queue::kMerge);
-            continue;
-        }
-        BucketQueue& queue = queue_at(queue_of(some[i]));
-        queue.remove(ranks_, some[i], before[i]);
-        queue.push(ranks_, some[i], bucket_of(some[i]));
-    }
-}
-
-/// At most four new candidates.
-void RoamFront::admit(std::span<const DiamondIndex> candidates) {
-    for (DiamondIndex index : candidates)
-        ranks_[index].source = table_.at(mesh_[index].centre(), mesh_[index].level);
-    rank(candidates);
-    for (DiamondIndex index : candidates)
-        enqueue(index, Queue::kSplit);
-}
-
-/// After the odometers began again. What sleeps keeps the rest of its guard; under other optics it wakes.
-void RoamFront::rewind_alarms(EyeOdometer::Step step) {
-    const bool holds = step == EyeOdometer::Step::kRewound;
-    for (size_t i = 0; i < mesh_.record_count(); ++i) {
-        if (wake_m_[i] == kNever) continue;
-        wake_m_[i] =
-            holds ? static_cast<float>(double(wake_m_[i]) - odometer_.walked_before_m() - 1e-3) : -1.0f;
-        wake_rad_[i] =
-            holds ? static_cast<float>(double(wake_rad_[i]) - odometer_.turned_before_rad() - 1e-7) : -1.0f;
-    }
-}
-
-/// Every record whose guard this frame's motion may have used up.
-void RoamFront::collect_due() {
-    constexpr size_t kBlock = 64;
-    due_.clear();
-    const float walked = odometer_.walked_m(), turned = odometer_.turned_rad();
-    const size_t count = mesh_.record_count();
-    for (size_t begin = 0; begin < count; begin += kBlock) {
-        const size_t end = std::min(count, begin + kBlock);
-        int any = 0;
-        for (size_t i = begin; i < end; ++i)
-            any |= static_cast<int>(wake_m_[i] < walked) | static_cast<int>(wake_rad_[i] < turned);
-        if (any == 0) continue;
-        for (size_t i = begin; i < end; ++i) {
-            if (wake_m_[i] < walked || wake_rad_[i] < turned) due_.push_back(static_cast<DiamondIndex>(i));
-        }
-    }
-}
-
 void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
+    ask_all();
+    refined_ = lod::kBucketCount - 1;
     if (loader_ && loader_->exchange(views, time_s, table_) > 0) recall_waiting();
     const EyeOdometer::Step step = odometer_.advance(views, bound_of_.anchor_world());
     if (step != EyeOdometer::Step::kAdvanced) rewind_alarms(step);
@@ -197,7 +94,10 @@ void RoamFront::recall_waiting() {
     }
 }
 
+/// Of the candidates that have been asked. While they are no better than what was refined last, the few that have
+/// not can wait: the order among those that are refined anyway is of no account.
 double RoamFront::refine_error_px() {
+    if (!unasked_.is_empty() && (splits().is_empty() || splits().highest() < refined_)) ask_all();
     while (!splits().is_empty()) {
         const Bucket bucket = splits().highest();
         if (bucket == kHiddenBucket) return 0.0;
@@ -226,6 +126,7 @@ double RoamFront::coarsen_error_px() {
 
 /// What is under way is as wrong as its place is far, beyond what the mesh around it is.
 double RoamFront::error_px() {
+    ask_all();
     double settled = 0.0;
     for (BucketQueue* queue : {&splits(), &waits()}) {
         if (!queue->is_empty()) settled = std::max(settled, double(scale_.upper_px(queue->highest())));
@@ -243,9 +144,9 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
         if (queue_of(parent) == Queue::kLeave) stay(parent);
-        dequeue(parent);
+        if (is_queued(parent)) unlink(parent);
     }
-    if (outcome.created_count > 0) admit({outcome.created.data(), outcome.created_count});
+    announce({outcome.created.data(), outcome.created_count});
     // Its evaluation stands; that it does not watch for a fall yet only delays a merge until it next wakes.
     enqueue(index, Queue::kMerge);
     return 1;
@@ -262,13 +163,6 @@ void RoamFront::fetch_ahead(DiamondIndex head) const {
         __builtin_prefetch(&ranks_[later]);
     }
     mesh_.fetch_kin(next);
-    const Diamond& d = mesh_[next];
-    if (d.level >= table_.domain.finest_level()) return;
-    for (int side = 0; side < 4; ++side) {
-        const GridPoint child =
-            step_from(d.centre(), d.apex_dir + 2 * side + 1, table_.domain.child_step(d.level));
-        if (table_.domain.contains(child)) __builtin_prefetch(table_.find(child, d.level + 1));
-    }
 }
 
 bool RoamFront::are_children_here(DiamondIndex index) const {
@@ -290,6 +184,7 @@ bool RoamFront::make_chain(DiamondIndex head) {
         if (loader_ && !are_children_here(chain_.back())) return false;
         const DiamondIndex missing = mesh_.missing_parent(chain_.back());
         if (missing == kOutside) return true;
+        if (queue_of(missing) == Queue::kUnasked) ask_all();
         chain_.push_back(missing);
     }
 }
@@ -298,7 +193,8 @@ lod::Step RoamFront::refine() {
     lod::Step step;
     const uint64_t before = triangles();
     while (refine_error_px() > 0.0) {
-        const DiamondIndex head = splits().head(splits().highest());
+        refined_ = splits().highest();
+        const DiamondIndex head = splits().head(refined_);
         fetch_ahead(head);
         if (!make_chain(head)) {
             unlink(head);
@@ -312,6 +208,7 @@ lod::Step RoamFront::refine() {
         }
         break;
     }
+    ask(kUnaskedMost);
     step.triangle_delta = static_cast<int64_t>(triangles() - before);
     return step;
 }
@@ -323,15 +220,14 @@ void RoamFront::merge_one(DiamondIndex index) {
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);
-    for (uint32_t i = 0; i < outcome.mergeable_count; ++i) {
-        rank_one(outcome.mergeable[i]);
-        enqueue(outcome.mergeable[i], Queue::kMerge);
-    }
+    for (uint32_t i = 0; i < outcome.mergeable_count; ++i)
+        offer(outcome.mergeable[i], Queue::kMerge);
     enqueue(index, Queue::kSplit);  // its evaluation watched for a rise, too
 }
 
 lod::Step RoamFront::coarsen(double limit_px) {
     lod::Step step;
+    ask_all();
     if (coarsen_error_px() > limit_px) return step;
     const uint64_t before = triangles();
     const Bucket bucket = merges().lowest();

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "terrain/diamond_table.h"
 #include "terrain/store/page_loader.h"
 #include "terrain/tessellator.h"
+#include "terrain/unasked_diamonds.h"
 #include "terrain/vertex_glides.h"
 
 namespace terrain {
@@ -86,8 +88,11 @@ class RoamFront final : public lod::Front {
     uint64_t memory_bytes() const;
 
   private:
-    /// kWait: a candidate whose children's page is absent. kLeave: gliding back, merged when it is there.
-    enum class Queue : uint8_t { kNone, kSplit, kMerge, kWait, kLeave };
+    /// kWait: a candidate whose children's page is absent. kLeave: gliding back, merged when it is there. kUnasked:
+    /// a candidate that nobody has looked at yet.
+    enum class Queue : uint8_t { kNone, kSplit, kMerge, kWait, kLeave, kUnasked };
+    /// Alarm of what needs no new look, or of what nothing is said.
+    static constexpr float kNever = std::numeric_limits<float>::infinity();
 
     Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
     Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
@@ -105,12 +110,14 @@ class RoamFront final : public lod::Front {
     FourEvaluations evaluate_some(std::span<const DiamondIndex> some, float reach) const;
     Bucket family_bucket(DiamondIndex index);
     void rank(std::span<const DiamondIndex> some);
-    void rank_one(DiamondIndex index) { rank({&index, 1}); }
     void enqueue(DiamondIndex index, Queue queue);
     void dequeue(DiamondIndex index);
     void unlink(DiamondIndex index);
     void refresh(std::span<const DiamondIndex> some);
-    void admit(std::span<const DiamondIndex> candidates);
+    void announce(std::span<const DiamondIndex> candidates);
+    void ask(uint32_t most);
+    void ask_all() { ask(0); }
+    void offer(DiamondIndex index, Queue queue);
     void fetch_ahead(DiamondIndex head) const;
     bool are_children_here(DiamondIndex index) const;
     bool make_chain(DiamondIndex head);
@@ -146,6 +153,8 @@ class RoamFront final : public lod::Front {
     std::vector<DiamondRank> ranks_;        ///< [record]
     std::vector<float> wake_m_, wake_rad_;  ///< odometer readings at which to evaluate again
     std::array<BucketQueue, 4> queues_;     ///< kSplit, kMerge, kWait, kLeave
+    UnaskedDiamonds unasked_;
+    Bucket refined_ = lod::kBucketCount - 1;  ///< of the latest refinement of this frame
 
     EyeOdometer odometer_;
     uint8_t stamp_ = 0;

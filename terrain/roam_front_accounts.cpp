@@ -10,24 +10,28 @@ namespace terrain {
 std::string RoamFront::validate() const {
     std::string fault = validate_mesh(mesh_);
     if (!fault.empty()) return fault;
-    uint64_t queued = 0, leaving = 0;
+    uint64_t queued = 0, leaving = 0, unasked = 0;
     for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
         const Diamond& d = mesh_[i];
         const Queue expected = !d.is_used()        ? Queue::kNone
                                : !d.is_split       ? Queue::kSplit
                                : d.split_kids == 0 ? Queue::kMerge
                                                    : Queue::kNone;
+        const bool is_unasked = expected == Queue::kSplit && queue_of(i) == Queue::kUnasked;
         const bool waits = expected == Queue::kSplit && queue_of(i) == Queue::kWait;
         const bool leaves = expected == Queue::kMerge && queue_of(i) == Queue::kLeave;
         if (leaves) leaving += triangles_of(i);
-        if (queue_of(i) != expected && !waits && !leaves)
+        if (queue_of(i) != expected && !waits && !leaves && !is_unasked)
             return "diamond " + std::to_string(i) + " is in the wrong queue";
-        queued += expected != Queue::kNone ? 1 : 0;
-        if (expected == Queue::kNone || odometer_.eyes().empty()) continue;
+        unasked += is_unasked ? 1 : 0;
+        queued += expected != Queue::kNone && !is_unasked ? 1 : 0;
+        const bool is_ranked = d.is_used() && !is_unasked && (is_queued(i) || wake_m_[i] != kNever);
+        if (!is_ranked || odometer_.eyes().empty()) continue;
         if (evaluate_some({&i, 1}, 1.0f).error_px[0] > scale_.upper_px(bucket_of(i))) {
             return "diamond " + std::to_string(i) + " is worse than its bucket says";
         }
     }
+    if (unasked != unasked_.size()) return "miscounts what is unasked";
     if (leaving != leaving_triangles_) return "miscounts what leaves";
     uint64_t linked = 0;
     for (const BucketQueue& queue : queues_) {

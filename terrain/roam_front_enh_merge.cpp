@@ -44,7 +44,7 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
         stack_.pop_back();
         if (queue_of(index) == Queue::kLeave) leaving_triangles_ -= triangles_of(index);
         glides_.drop(index, mesh_[index].level);
-        dequeue(index);
+        if (is_queued(index)) unlink(index);
         const MergeOutcome outcome = mesh_.merge(index);
         ++count;
         merged_.push_back(index);
@@ -57,8 +57,7 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
     for (DiamondIndex index : merged_) {
         const Diamond& d = mesh_[index];
         if (!d.is_used() || is_queued(index) || (d.is_split && d.split_kids > 0)) continue;
-        rank_one(index);
-        enqueue(index, d.is_split ? Queue::kMerge : Queue::kSplit);
+        offer(index, d.is_split ? Queue::kMerge : Queue::kSplit);
     }
     return count;
 }

@@ -29,6 +29,14 @@ inline Float4 max(Float4 a, Float4 b) {
 inline Float4 abs(Float4 a) {
     return std::bit_cast<Float4>(std::bit_cast<Int4>(a) & 0x7fffffff);
 }
+/// Whether any lane of a mask is set.
+inline bool any(Int4 mask) {
+#if defined(__SSE__)
+    return _mm_movemask_ps(std::bit_cast<Float4>(mask)) != 0;
+#else
+    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
 inline Float4 sqrt(Float4 a) {
 #if defined(__SSE__)
     return _mm_sqrt_ps(a);

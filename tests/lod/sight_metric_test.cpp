@@ -107,4 +107,20 @@ TEST(SightMetric, BucketEdgesAreWhatTheySay) {
     }
 }
 
+/// An edge above the tolerance would have the bucket below it refined, up to an eighth finer than asked for.
+TEST(SightMetric, TheToleranceIsAnEdge) {
+    lod::Rng rng(5);
+    for (int round = 0; round < 10'000; ++round) {
+        const double tolerance_px = std::exp(rng.between(-12.0, 8.0));
+        const lod::BucketScale scale = lod::scale_at(tolerance_px);
+        const lod::Bucket above = scale.bucket_of(std::nextafter(static_cast<float>(tolerance_px), 1e30f));
+        const lod::Bucket below = scale.bucket_of(static_cast<float>(tolerance_px * (1.0 - 1e-6)));
+        ASSERT_EQ(above, below + 1) << tolerance_px;
+        ASSERT_LE(double(scale.upper_px(below)), tolerance_px);
+        ASSERT_GT(double(scale.upper_px(below)), tolerance_px * (1.0 - 1e-6));
+        ASSERT_GT(double(scale.upper_px(above)), tolerance_px);
+    }
+    EXPECT_EQ(lod::scale_at(0.0).reference_px, 1.0f);
+}
+
 }  // namespace

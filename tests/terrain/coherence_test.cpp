@@ -111,6 +111,44 @@ TEST(Coherence, EnhMergeTakesATurnBackInFewOperations) {
     EXPECT_LE(whole.front.error_px(), kTolerance);
 }
 
+/// A record is evaluated when it is made, and then not before its alarm: not when it becomes mergeable again.
+TEST(Coherence, ARecordIsAskedOnce) {
+    Rig rig(false);
+    const lod::View view = flight(0);
+    rig.front.begin_frame({&view, 1}, 0.0);
+    const uint64_t at_first = rig.front.evaluations();
+    uint32_t splits = 0, merges = 0;
+    while (rig.front.refine_error_px() > kTolerance)
+        splits += rig.front.refine().steps;
+    const uint64_t records = rig.front.mesh().live_count();
+    const uint64_t asked = rig.front.evaluations() - at_first;
+    while (rig.front.mesh().triangles() > 2)
+        merges += rig.front.coarsen(1e30).steps;
+    EXPECT_GT(splits, 5'000u);
+    EXPECT_EQ(merges, splits);
+    EXPECT_EQ(asked, records - 1);
+    EXPECT_EQ(rig.front.evaluations() - at_first, asked);
+    EXPECT_EQ(rig.front.validate(), "");
+}
+
+/// Candidates that nobody has asked yet are asked before anyone takes the front for finished.
+TEST(Coherence, NobodyIsForgottenWhereTheDeadlineCuts) {
+    Rig rig(true);
+    for (uint64_t limit = 0; limit < 400; ++limit) {
+        rig.front.reset();
+        const lod::View view = flight(0);
+        rig.front.begin_frame({&view, 1}, 0.0);
+        lod::Front* fronts[] = {&rig.front};
+        lod::schedule(fronts, {.tolerance_px = kTolerance}, lod::operation_limit(limit));
+        ASSERT_EQ(rig.front.validate(), "") << limit;
+        const double told = rig.front.error_px();
+        ASSERT_EQ(rig.front.validate(), "") << limit;
+        ASSERT_LE(rig.front.refine_error_px(), told) << limit;
+    }
+    rig.adapt(flight(0));
+    EXPECT_LE(rig.front.error_px(), kTolerance);
+}
+
 TEST(Coherence, AWarmFrameAllocatesNothing) {
     Rig rig(true);
     rig.adapt(flight(0));
