@@ -88,7 +88,7 @@ TEST(StoreFront, WhatIsWantedSuffices) {
 
 TEST(StoreFront, TooLittleRoomIsCoarserNeverMissing) {
     const CutFolder folder;
-    const auto paged = paged_front(folder.file("a.hts"), 36, kWant_px, false);
+    const auto paged = paged_front(folder.file("a.hts"), 24, kWant_px, true);
     double worst_px = 0.0;
     for (int frame = 0; frame < 400; ++frame) {
         adapt(*paged, flight_view(frame), frame / kRate_hz, 2000);
