@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "data/generated_meter.h"
+#include "data/glb_writer.h"
 #include "lod/progressive/static_mesh.h"
 #include "sim/command_values.h"
 #include "sim/mesh_model.h"
@@ -124,6 +126,21 @@ void add_mesh_extract(CLI::App& app, MeshExtractArguments& arguments) {
 
 void add_mesh_inspect(CLI::App& app, MeshInspectArguments& arguments) {
     app.add_option("mesh", arguments.source, "progressive mesh")->required()->type_name("F.hpm");
+}
+
+void add_mesh_generate(CLI::App& app, MeshGenerateArguments& arguments) {
+    arguments.triangles = data::kMeterTriangles;
+    app.add_option("--out", arguments.out, "model to write, binary glTF")->required()->type_name("F.glb");
+    app.add_option("--triangles", arguments.triangles, "exactly so many")
+        ->check(CLI::Range(data::kLeastMeterTriangles, 10'000'000u))
+        ->capture_default_str();
+}
+
+lod::Result<lod::Ok> run_mesh_generate(const MeshGenerateArguments& arguments) {
+    const data::PolygonMesh mesh = data::generate_meter(arguments.triangles);
+    if (auto written = data::write_glb(arguments.out, mesh); !written) return written.error();
+    std::printf("%s\n", nlohmann::json{{"triangles", mesh.triangle_count()}}.dump().c_str());
+    return lod::Ok{};
 }
 
 lod::Result<lod::Ok> run_mesh_build(const MeshBuildArguments& arguments) {

@@ -1,4 +1,4 @@
-// `harrier mesh build`, `extract` and `inspect`: progressive meshes of instruments and other models.
+// `harrier mesh build`, `extract`, `inspect` and `generate`: progressive meshes of instruments and other models.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,9 +24,15 @@ struct MeshInspectArguments {
     std::string source;
 };
 
+struct MeshGenerateArguments {
+    std::string out;
+    uint32_t triangles = 0;
+};
+
 void add_mesh_build(CLI::App& app, MeshBuildArguments& arguments);
 void add_mesh_extract(CLI::App& app, MeshExtractArguments& arguments);
 void add_mesh_inspect(CLI::App& app, MeshInspectArguments& arguments);
+void add_mesh_generate(CLI::App& app, MeshGenerateArguments& arguments);
 
 /// Reads a model, writes an .hpm file and prints one line of JSON: what went in, what was met, how long it took.
 lod::Result<lod::Ok> run_mesh_build(const MeshBuildArguments& arguments);
@@ -36,5 +42,8 @@ lod::Result<lod::Ok> run_mesh_extract(MeshExtractArguments arguments);
 
 /// Prints JSON: counts, levels and errors, in all and part by part.
 lod::Result<lod::Ok> run_mesh_inspect(const MeshInspectArguments& arguments);
+
+/// Writes a generated meter (data/generated_meter.h) as GLB.
+lod::Result<lod::Ok> run_mesh_generate(const MeshGenerateArguments& arguments);
 
 }  // namespace sim

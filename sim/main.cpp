@@ -45,6 +45,7 @@ int main(int count, char** words) {
     sim::MeshBuildArguments mesh_build;
     sim::MeshExtractArguments mesh_extract;
     sim::MeshInspectArguments mesh_inspect;
+    sim::MeshGenerateArguments mesh_generate;
     CLI::App& demo_app = *app.add_subcommand("demo", "fly the bundled scene, measure, and take pictures");
     CLI::App& fly_app = *app.add_subcommand("fly", "run the loop along a path or a recording");
     CLI::App& still_app = *app.add_subcommand("still", "one picture, converged unless a budget is given");
@@ -60,6 +61,7 @@ int main(int count, char** words) {
         *app.add_subcommand("mesh", "progressive meshes of instruments")->require_subcommand(1);
     CLI::App& mesh_build_app = *mesh_app.add_subcommand("build", "a progressive mesh with proved errors");
     CLI::App& mesh_extract_app = *mesh_app.add_subcommand("extract", "a static mesh of a size or error");
+    CLI::App& mesh_generate_app = *mesh_app.add_subcommand("generate", "a meter of a stated size, to try");
     CLI::App& mesh_inspect_app = *mesh_app.add_subcommand("inspect", "what a progressive mesh holds");
     sim::add_demo(demo_app, demo);
     sim::add_fly(fly_app, fly);
@@ -71,6 +73,7 @@ int main(int count, char** words) {
     sim::add_mesh_build(mesh_build_app, mesh_build);
     sim::add_mesh_extract(mesh_extract_app, mesh_extract);
     sim::add_mesh_inspect(mesh_inspect_app, mesh_inspect);
+    sim::add_mesh_generate(mesh_generate_app, mesh_generate);
 
     const auto command = [&]() -> lod::Result<lod::Ok> {
         if (demo_app.parsed()) return sim::run_demo(demo);
@@ -82,6 +85,7 @@ int main(int count, char** words) {
         if (mesh_build_app.parsed()) return sim::run_mesh_build(mesh_build);
         if (mesh_extract_app.parsed()) return sim::run_mesh_extract(mesh_extract);
         if (mesh_inspect_app.parsed()) return sim::run_mesh_inspect(mesh_inspect);
+        if (mesh_generate_app.parsed()) return sim::run_mesh_generate(mesh_generate);
         return sim::run_extract(extract);
     };
     return run(app, command, count, words);

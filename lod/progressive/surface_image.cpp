@@ -15,9 +15,12 @@ double SurfaceImage::collapse(uint32_t k) {
     carry_members(k);
     replace_star(k);
     move_members();
+    touch_moved();
     for (uint32_t edge : touched_)
         rewrite(edge);
+    untwist();
     find_owner();
+    untwist();
     file_crossers();
     const double bound = star_bound();
     for (const Member& member : members_)
@@ -60,7 +63,7 @@ void SurfaceImage::touch_crossers(CornerId corner) {
 
 /// Everything that the star's inner edges and its two nodes concern.
 void SurfaceImage::gather_star(uint32_t k) {
-    star_.clear(), touched_.clear(), removed_.clear(), rules_.clear(), ruled_.clear();
+    suspects_.clear(), star_.clear(), touched_.clear(), removed_.clear(), rules_.clear(), ruled_.clear();
     for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i) {
         star_.push_back(h_.kept[i] / 3);
         touch_crossers(h_.kept[i]);
@@ -190,9 +193,22 @@ void SurfaceImage::move_members() {
         const uint32_t triangle = fan_.corners[member.to] / 3;
         triangle_of_[member.vertex] = triangle;
         on_[triangle].push_back(member.vertex);
+    }
+}
+
+/// Edges whose ends do not go the same way are written anew.
+void SurfaceImage::touch_moved() {
+    for (const Member& member : members_) {
         if (member.from == member.to && !member.passes_p) continue;
-        for (uint32_t j = incident_begin_[member.vertex]; j < incident_begin_[member.vertex + 1]; ++j)
-            touch(incident_[j]);
+        const bool is_inner = border_of_[member.vertex] == kNoCorner;
+        for (uint32_t j = incident_begin_[member.vertex]; j < incident_begin_[member.vertex + 1]; ++j) {
+            const FullEdge& edge = edges_[incident_[j]];
+            const uint32_t beside = member_of_[edge.u == member.vertex ? edge.v : edge.u];
+            const bool is_alike = is_inner && edge.word.empty() && beside != kNone &&
+                                  members_[beside].from == member.from && members_[beside].to == member.to &&
+                                  members_[beside].is_ccw == member.is_ccw;
+            if (!is_alike) touch(incident_[j]);
+        }
     }
 }
 
@@ -251,8 +267,8 @@ void SurfaceImage::rewrite(uint32_t index) {
     FullEdge& edge = edges_[index];
     const Member* u = member_of_[edge.u] == kNone ? nullptr : &members_[member_of_[edge.u]];
     const Member* v = member_of_[edge.v] == kNone ? nullptr : &members_[member_of_[edge.v]];
-    Word word;
-    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+    scratch_.clear();
+    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
     if (u != nullptr) walk_fan(fan_, u->to, u->from, !u->is_ccw, add);
     for (CornerId letter : edge.word) {
         if (rule_of_[letter] == kNone) {
@@ -263,7 +279,8 @@ void SurfaceImage::rewrite(uint32_t index) {
         }
     }
     if (v != nullptr) walk_fan(fan_, v->from, v->to, v->is_ccw, add);
-    edge.word = std::move(word);
+    edge.word.assign(scratch_.begin(), scratch_.end());
+    suspect(edge);
     if (edge.right == kNoCorner) rewrite_passes(edge, u, v);
 }
 

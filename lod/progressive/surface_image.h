@@ -89,6 +89,11 @@ class SurfaceImage {
     void move_inner(Member& member, const glm::dvec3& at);
     void move_border(Member& member, const glm::dvec3& at);
     void rewrite(uint32_t edge);
+    void touch_moved();
+    void suspect(const FullEdge& edge);
+    void untwist();
+    int excess_turns(uint32_t vertex, bool is_ccw) const;
+    void turn_vertex(uint32_t vertex, bool is_ccw);
     void rewrite_passes(FullEdge& edge, const Member* u, const Member* v);
     void find_owner();
     bool flip(uint32_t edge, uint32_t from, uint32_t to);
@@ -128,8 +133,10 @@ class SurfaceImage {
     std::vector<uint32_t> star_;        // old triangles
     std::vector<uint32_t> removed_to_;  // [2] per removed triangle: where its vertices go
     std::vector<Member> members_;
-    std::vector<CornerId> start_;      // [members] corner of the triangle where each is at first
-    std::vector<uint32_t> touched_;    // full edges to rewrite
+    std::vector<CornerId> start_;    // [members] corner of the triangle where each is at first
+    std::vector<uint32_t> touched_;  // full edges to rewrite
+    Word scratch_;
+    std::vector<uint32_t> suspects_;   // vertices with an edge that goes round p at once
     std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
     std::vector<uint8_t> is_touched_;  // [edges]
     std::vector<uint32_t> sector_of_;  // [triangles] in the new fan

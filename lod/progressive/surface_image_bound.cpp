@@ -6,6 +6,81 @@
 
 namespace lod {
 
+/// Letters that a full turn of a vertex round p would add to its edges' words, less those that it would cancel.
+/// @param is_ccw  the way its edges go round p now
+int SurfaceImage::excess_turns(uint32_t vertex, bool is_ccw) const {
+    const auto around = static_cast<int>(fan_.corners.size());
+    int added = 0;
+    for (uint32_t i = incident_begin_[vertex]; i < incident_begin_[vertex + 1]; ++i) {
+        const FullEdge& edge = edges_[incident_[i]];
+        const size_t count = edge.word.size();
+        const bool is_tail = edge.u == vertex;
+        int run = 0;
+        while (run < around && run < static_cast<int>(count)) {
+            const CornerId letter =
+                edge.word[is_tail ? static_cast<size_t>(run) : count - 1 - static_cast<size_t>(run)];
+            const NodeId pivot = is_ccw == is_tail ? mesh_.head(letter) : mesh_.node(letter);
+            if (pivot != p_) break;
+            ++run;
+        }
+        added += around - 2 * run;
+    }
+    return added;
+}
+
+/// Winds a vertex once round p against the way its edges go.
+void SurfaceImage::turn_vertex(uint32_t vertex, bool is_ccw) {
+    const size_t count = fan_.corners.size(), sector = sector_of_[triangle_of_[vertex]];
+    for (uint32_t i = incident_begin_[vertex]; i < incident_begin_[vertex + 1]; ++i) {
+        FullEdge& edge = edges_[incident_[i]];
+        Word word;
+        const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+        const auto turn = [&](bool turns_ccw) {
+            const size_t next = (turns_ccw ? sector + 1 : sector + count - 1) % count;
+            if (count > 1) walk_fan(fan_, sector, next, turns_ccw, add);
+            walk_fan(fan_, next, sector, turns_ccw, add);
+        };
+        if (edge.u == vertex) turn(!is_ccw);
+        for (CornerId letter : edge.word)
+            add(letter);
+        if (edge.v == vertex) turn(is_ccw);
+        edge.word = std::move(word);
+        suspect(edge);
+        touch(incident_[i]);
+    }
+}
+
+/// Remembers the ends of an edge at which it goes round p at once.
+void SurfaceImage::suspect(const FullEdge& edge) {
+    if (edge.word.empty()) return;
+    const auto is_at_p = [this](CornerId letter) {
+        return mesh_.node(letter) == p_ || mesh_.head(letter) == p_;
+    };
+    if (member_of_[edge.u] != kNone && is_at_p(edge.word.front())) suspects_.push_back(edge.u);
+    if (member_of_[edge.v] != kNone && is_at_p(edge.word.back())) suspects_.push_back(edge.v);
+}
+
+/// Vertices that went round p the long way, as their edges' words tell, go back.
+void SurfaceImage::untwist() {
+    constexpr int kPasses = 4;
+    if (!fan_.is_closed || fan_.corners.size() < 2) return;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        std::sort(suspects_.begin(), suspects_.end());
+        suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
+        bool is_changed = false;
+        for (size_t i = 0, count = suspects_.size(); i < count; ++i) {
+            const uint32_t vertex = suspects_[i];
+            if (border_of_[vertex] != kNoCorner) continue;
+            for (const bool is_ccw : {true, false}) {
+                if (excess_turns(vertex, is_ccw) >= 0) continue;
+                turn_vertex(vertex, is_ccw);
+                is_changed = true;
+            }
+        }
+        if (!is_changed) return;
+    }
+}
+
 double SurfaceImage::owner_distance(NodeId node, uint32_t triangle) const {
     const auto& [a, b, c] = h_.triangles[triangle];
     return glm::sqrt(squared_distance(at(node), Triangle{at(a), at(b), at(c)}));
@@ -45,6 +120,7 @@ bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
     owned_[to].push_back(p_);
     if (can_fill(from) && can_fill(to)) {
         owner_[p_] = to;
+        suspect(edge);
         touch(index);
         return true;
     }

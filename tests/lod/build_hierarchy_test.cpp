@@ -72,6 +72,16 @@ TEST(BuildHierarchy, BoxKeepsItsHardEdges) {
     EXPECT_EQ(report.border_edges, 0u);
     EXPECT_EQ(report.seam_edges, 12u * 8u);
     expect_sound(h, true);
+    // Every drawn corner of any state has a normal of the face it lies in: none was mixed across an edge.
+    const lod::StaticMesh base = lod::mesh_at_tolerance(h, 0.0);
+    EXPECT_EQ(base.triangles.size(), 12u);
+    for (const auto& triangle : base.triangles) {
+        const glm::vec3 a = h.position[h.vertex_node[triangle[0]]];
+        const glm::vec3 face = glm::normalize(glm::cross(h.position[h.vertex_node[triangle[1]]] - a,
+                                                         h.position[h.vertex_node[triangle[2]]] - a));
+        for (lod::VertexId vertex : triangle)
+            EXPECT_GT(glm::dot(face, h.normal[vertex]), 0.999f);
+    }
 }
 
 TEST(BuildHierarchy, EdgeLengthMetricPutsTheShortestEdgeFirst) {
