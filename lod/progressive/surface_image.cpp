@@ -212,8 +212,8 @@ void SurfaceImage::touch_moved() {
     }
 }
 
+/// Downhill first; where that ends farther off than anything before, every sector is tried.
 void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
-    constexpr size_t kSearched = 12;
     const size_t count = fan_.corners.size();
     double least2 = squared_distance(place, coarse_triangle(fan_.corners[member.from]));
     const auto attempt = [&](size_t sector) {
@@ -223,18 +223,15 @@ void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
         member.to = static_cast<uint32_t>(sector);
         return true;
     };
-    if (count <= kSearched) {
-        for (size_t sector = 0; sector < count && least2 > 0.0; ++sector)
-            attempt(sector);
-    } else {
-        for (const bool is_up : {true, false}) {
-            size_t at = member.to;
-            do {
-                if (!fan_.is_closed && at == (is_up ? count - 1 : 0)) break;
-                at = is_up ? (at + 1) % count : (at + count - 1) % count;
-            } while (least2 > 0.0 && attempt(at));
-        }
+    for (const bool is_up : {true, false}) {
+        size_t at = member.to;
+        do {
+            if (!fan_.is_closed && at == (is_up ? count - 1 : 0)) break;
+            at = is_up ? (at + 1) % count : (at + count - 1) % count;
+        } while (least2 > 0.0 && attempt(at));
     }
+    for (size_t sector = 0; sector < count && least2 > std::max(bound2_, noise_m_ * noise_m_); ++sector)
+        attempt(sector);
     const size_t ccw = (member.to + count - member.from) % count;
     member.is_ccw = fan_.is_closed ? 2 * ccw <= count : member.to > member.from;
     bound2_ = std::max(bound2_, least2);

@@ -96,6 +96,7 @@ class SurfaceImage {
     void turn_vertex(uint32_t vertex, bool is_ccw);
     void rewrite_passes(FullEdge& edge, const Member* u, const Member* v);
     void find_owner();
+    bool find_way(uint32_t from, double apart);
     bool flip(uint32_t edge, uint32_t from, uint32_t to);
     bool send_round(FullEdge& edge, bool is_ccw);
     void file_crossers();
@@ -135,6 +136,11 @@ class SurfaceImage {
     std::vector<Member> members_;
     std::vector<CornerId> start_;    // [members] corner of the triangle where each is at first
     std::vector<uint32_t> touched_;  // full edges to rewrite
+    struct Step {
+        uint32_t triangle = 0, before = 0, edge = 0;  ///< reached from step `before` across a full edge
+        double apart = 0.0;
+    };
+    std::vector<Step> way_;  // full triangles looked at on the way to a nearer owner
     Word scratch_;
     std::vector<uint32_t> suspects_;   // vertices with an edge that goes round p at once
     std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
@@ -149,7 +155,8 @@ class SurfaceImage {
         CornerId beyond_c = 0, beyond_o = 0;              ///< their mates
     };
     std::vector<Removed> removed_;
-    double bound2_ = 0.0;  // largest squared distance of a vertex
+    double noise_m_ = 0.0;  // below this nothing is worth a search
+    double bound2_ = 0.0;   // largest squared distance of a vertex
 };
 
 }  // namespace lod

@@ -3,6 +3,9 @@
 // Every vertex is moved a little into one of the triangles around it, its home: sector 0 of its fan. An edge goes along
 // its left triangle; at its ends it turns round the vertices' nodes to reach it, the shorter way. Between two
 // neighbouring edges that turn different ways lies the triangle that owns the node.
+#include <algorithm>
+#include <cmath>
+
 #include "lod/base/check.h"
 #include "lod/progressive/surface_image.h"
 
@@ -39,6 +42,9 @@ SurfaceImage::SurfaceImage(const VertexHierarchy& hierarchy) : h_(hierarchy), me
     member_of_.resize(h_.leaf_count, kNone);
     sector_of_.resize(h_.triangles.size(), kNone);
     rule_of_.resize(corners, kNone);
+    for (const glm::vec3& p : h_.position)
+        noise_m_ = std::max({noise_m_, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
+    noise_m_ *= 0x1p-40;
     begin_edges();
     is_touched_.resize(edges_.size(), 0);
     begin_vertices();

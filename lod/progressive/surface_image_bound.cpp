@@ -86,6 +86,29 @@ double SurfaceImage::owner_distance(NodeId node, uint32_t triangle) const {
     return glm::sqrt(squared_distance(at(node), Triangle{at(a), at(b), at(c)}));
 }
 
+/// Searches the full triangles around `from` for one that is nearer to p; on the way none may be farther than `apart`, as
+/// many are alike where a vertex is nearest. The way stands in way_, its end last.
+bool SurfaceImage::find_way(uint32_t from, double apart) {
+    constexpr size_t kMostSteps = 96;
+    way_.assign(1, {from, 0, 0, apart});
+    for (size_t i = 0; i < way_.size() && way_.size() < kMostSteps; ++i) {
+        const uint32_t triangle = way_[i].triangle;
+        for (CornerId corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+            const FullEdge& edge = edges_[edge_of_[corner]];
+            if (edge.right == kNoCorner) continue;
+            const uint32_t to = (edge.left == corner ? edge.right : edge.left) / 3;
+            const bool is_known =
+                std::any_of(way_.begin(), way_.end(), [to](const Step& step) { return step.triangle == to; });
+            if (is_known) continue;
+            const double there = owner_distance(p_, to);
+            if (there > apart * (1.0 + 1e-9)) continue;
+            way_.push_back({to, static_cast<uint32_t>(i), edge_of_[corner], there});
+            if (there < apart * (1.0 - 1e-9)) return true;
+        }
+    }
+    return false;
+}
+
 /// p takes over the centre's owner, then goes to nearer ones.
 void SurfaceImage::find_owner() {
     for (NodeId node : {centre_, other_}) {
@@ -95,18 +118,15 @@ void SurfaceImage::find_owner() {
     owner_[p_] = owner_[centre_];
     owned_[owner_[p_]].push_back(p_);
     double apart = owner_distance(p_, owner_[p_]);
-    for (bool is_moving = true; is_moving && apart > 0.0;) {
-        is_moving = false;
-        const uint32_t from = owner_[p_];
-        for (CornerId corner = 3 * from; corner < 3 * from + 3 && !is_moving; ++corner) {
-            const FullEdge& edge = edges_[edge_of_[corner]];
-            if (edge.right == kNoCorner) continue;
-            const uint32_t to = (edge.left == corner ? edge.right : edge.left) / 3;
-            const double there = owner_distance(p_, to);
-            if (there >= apart || !flip(edge_of_[corner], from, to)) continue;
-            apart = there;
-            is_moving = true;
-        }
+    std::vector<uint32_t> steps;
+    for (bool is_moving = true; is_moving && apart > noise_m_;) {
+        is_moving = find_way(owner_[p_], apart);
+        steps.clear();
+        for (size_t i = way_.size() - 1; i > 0; i = way_[i].before)
+            steps.push_back(static_cast<uint32_t>(i));
+        for (size_t i = steps.size(); is_moving && i-- > 0;)
+            is_moving = flip(way_[steps[i]].edge, owner_[p_], way_[steps[i]].triangle);
+        apart = owner_distance(p_, owner_[p_]);
     }
     node_bound_m_[p_] = apart;
 }
