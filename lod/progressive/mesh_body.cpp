@@ -10,10 +10,10 @@
 namespace lod {
 namespace {
 
-/// Once this share of the cut must be looked at again, the frame is incoherent.
-constexpr uint32_t kIncoherentShare = 4;
-/// Collapses whose error is this many buckets (two octaves) below limit and tolerance go without a glide.
-constexpr int kNoGlideMargin = 16;
+/// An eye that moves by more than this share of its distance, or turns by more, has nothing in common with the last.
+constexpr double kJumpShare = 0.3, kJump_rad = 0.5;
+/// Collapses that move their vertices by no more go without a glide.
+constexpr double kUnseenPop_px = 0.1;
 /// After a longer pause nobody remembers the last picture.
 constexpr double kLongestFrame_s = 0.5;
 /// What the size policy says to the scheduler: by all means.
@@ -50,6 +50,19 @@ void MeshBody::settle() {
     glide_px_ = jump_px_ = 0.0;
 }
 
+/// Whether an eye is somewhere else altogether.
+bool MeshBody::has_jumped(std::span<const View> views_body) {
+    bool jumps = views_body.size() != last_views_.size();
+    for (size_t i = 0; i < views_body.size() && !jumps; ++i) {
+        const View &now = views_body[i], &then = last_views_[i];
+        const double distance = std::max(glm::distance(now.eye_world, mesh().centre), mesh().radius_m);
+        jumps = glm::distance(now.eye_world, then.eye_world) > kJumpShare * distance ||
+                glm::length(now.eye_from_world[2] - then.eye_from_world[2]) > kJump_rad;
+    }
+    last_views_.assign(views_body.begin(), views_body.end());
+    return jumps;
+}
+
 void MeshBody::begin_frame(std::span<const View> views_body, double time_s) {
     bool is_seen = false;
     double size_px = 0.0;
@@ -69,9 +82,8 @@ void MeshBody::begin_frame(std::span<const View> views_body, double time_s) {
     if (is_asleep_) return;
     wanted_triangles_ = static_cast<uint64_t>(share_by_size(size_px) * mesh().triangle_count());
     const EyeOdometer::Step step = ranks_.begin_frame(views_body);
-    const bool is_incoherent =
-        ranks_.due().size() > ranks_.queued_count() / kIncoherentShare && ranks_.due().size() > 64;
-    is_cut_ = wakes || is_incoherent || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
+    const bool jumps = has_jumped(views_body);
+    is_cut_ = wakes || jumps || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
               passed_s > kLongestFrame_s;
     if (is_cut_) {
         settle();
@@ -222,8 +234,7 @@ Step MeshBody::coarsen(double limit_px) {
     const auto before = static_cast<int64_t>(triangles());
     const BucketQueue& merges = ranks_.queue_at(NodeQueue::kMerge);
     const uint32_t record = merges.head(merges.lowest());
-    const Bucket tolerance = ranks_.scale().bucket_of(ranks_.scale().reference_px);
-    const bool is_unseen = ranks_.bucket(record) + kNoGlideMargin <= tolerance;
+    const bool is_unseen = ranks_.bucket(record) <= kFlatBucket || pop_px(record) <= kUnseenPop_px;
     if (is_unseen || !leave(record)) merge_one(record);
     step.steps = 1;
     step.triangle_delta = static_cast<int64_t>(triangles()) - before;

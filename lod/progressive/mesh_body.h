@@ -59,14 +59,15 @@ class MeshBody {
     uint32_t record_of(NodeId node) const { return mesh().collapse_of(node); }
     const ProgressiveMesh& mesh() const { return cut_.mesh(); }
 
-    void fall_asleep();
     void settle();
+    bool has_jumped(std::span<const View> views_body);
     void refresh_due();
     void advance_glides();
     void measure_glides();
     bool is_gliding(uint32_t record) const {
         return options_.glide_s > 0.0 && !is_cut_ && ranks_.bucket(record) > kFlatBucket;
     }
+    double pop_px(uint32_t record) const;
     void note_pop(uint32_t record);
     bool leave(uint32_t record);
     void stay(uint32_t record);
@@ -83,6 +84,7 @@ class MeshBody {
     NodeGlides glides_;
     std::vector<NodeId> strayed_, chain_;
     std::vector<uint32_t> back_;
+    std::vector<View> last_views_;  ///< in the body's frame
     double now_s_ = 0.0;
     bool is_asleep_ = true;
     bool is_cut_ = true;  ///< this frame has nothing in common with the last: nothing glides

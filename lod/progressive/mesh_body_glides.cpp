@@ -30,14 +30,21 @@ void MeshBody::drop_glide(NodeId node) {
     glides_.drop(node);
 }
 
-/// The children of a node in view jump to it, or from it, not in a cut.
-void MeshBody::note_pop(uint32_t record) {
-    if (is_cut_ || ranks_.bucket(record) <= kFlatBucket) return;
+/// How far the children are shown from their node.
+double MeshBody::pop_px(uint32_t record) const {
     const glm::vec3 place = mesh().hierarchy.position[node_of(record)];
+    double farthest = 0.0;
     for (NodeId child : mesh().hierarchy.children[record]) {
         const glm::vec3 shown = mesh().hierarchy.position[child] + glides_.displacement_m(child);
-        jump_px_ = std::max(jump_px_, displacement_px(ranks_.eyes(), place, shown - place));
+        farthest = std::max(farthest, displacement_px(ranks_.eyes(), place, shown - place));
     }
+    return farthest;
+}
+
+/// They jump to it, or from it. In a plane nobody sees it, and in a cut nothing is a movement.
+void MeshBody::note_pop(uint32_t record) {
+    if (is_cut_ || ranks_.bucket(record) <= kFlatBucket) return;
+    jump_px_ = std::max(jump_px_, pop_px(record));
 }
 
 /// Sends both children to their node; false when they must jump, or need not move.

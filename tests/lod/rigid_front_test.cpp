@@ -8,6 +8,7 @@
 #include <new>
 
 #include "lod/base/rng.h"
+#include "tests/lod/allocations.h"
 
 namespace {
 
@@ -25,6 +26,10 @@ void operator delete(void* memory) noexcept {
 }
 void operator delete(void* memory, size_t) noexcept {
     std::free(memory);
+}
+
+uint64_t lod_test::allocation_count() {
+    return g_allocations;
 }
 
 namespace lod {

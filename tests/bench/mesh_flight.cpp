@@ -1,0 +1,195 @@
+// Speed of the front of progressive meshes on one .hpm file: operations a second, and an orbit frame by frame.
+//
+// Usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES]
+// Prints one line of JSON. Reads no clock but around what it measures.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "data/file_bytes.h"
+#include "lod/base/rng.h"
+#include "lod/progressive/hpm_format.h"
+#include "lod/progressive/mesh_front.h"
+#include "lod/progressive/transform_hierarchy.h"
+#include "lod/scheduler.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::vector<lod::ProgressiveMesh> meshes_of(const lod::ProgressiveModel& model) {
+    const std::vector<glm::dmat4> model_from_node = lod::model_from_nodes(model);
+    std::vector<lod::ProgressiveMesh> meshes;
+    for (const lod::ProgressivePart& part : model.parts) {
+        lod::VertexHierarchy hierarchy = part.hierarchy;
+        lod::transform_hierarchy(hierarchy, model_from_node[part.node]);
+        meshes.push_back(lod::make_progressive_mesh(std::move(hierarchy), part.is_glass));
+    }
+    return meshes;
+}
+
+const lod::ProgressiveMesh& largest(const std::vector<lod::ProgressiveMesh>& meshes) {
+    return *std::max_element(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) {
+        return a.triangle_count() < b.triangle_count();
+    });
+}
+
+/// Legal random operations on the largest part, each checked by its identifiers before it is done.
+nlohmann::json operations_of_a_cut(const lod::ProgressiveMesh& mesh) {
+    constexpr uint64_t kWanted = 2'000'000;
+    lod::MeshCut cut(mesh);
+    lod::Rng rng(1);
+    uint64_t done = 0, asked = 0;
+    const auto begin = Clock::now();
+    while (done < kWanted) {
+        const lod::NodeId node =
+            mesh.leaf_count() + static_cast<lod::NodeId>(rng.below(mesh.hierarchy.collapse_count()));
+        ++asked;
+        const bool splits = done / 20'000 % 2 == 0;
+        if (splits && cut.is_active(node) && cut.split_blocker(node) == lod::kNoNode) {
+            cut.vsplit(node);
+            ++done;
+        } else if (!splits && !cut.is_active(node) && cut.are_children_active(node) &&
+                   cut.collapse_blocker(node) == lod::kNoNode) {
+            cut.ecol(node);
+            ++done;
+        } else if (asked % 100'000 == 0) {
+            done += 20'000 - done % 20'000;  // nothing left to do this way
+        }
+        if (done % 20'000 == 0) cut.forget_touched();
+    }
+    const double s = seconds_since(begin);
+    // Down to the coarsest and up to the full mesh in the build's order: no search, no refusals.
+    const auto sweep = Clock::now();
+    uint64_t swept = 0;
+    lod::MeshCut whole(mesh);
+    for (int round = 0; round < 10; ++round) {
+        for (lod::NodeId node = mesh.hierarchy.node_count(); node-- > mesh.leaf_count(); ++swept)
+            if (whole.split_blocker(node) == lod::kNoNode) whole.vsplit(node);
+        for (lod::NodeId node = mesh.leaf_count(); node < mesh.hierarchy.node_count(); ++node, ++swept)
+            if (whole.collapse_blocker(node) == lod::kNoNode) whole.ecol(node);
+    }
+    return {{"random_per_s", double(done) / s},
+            {"asked_per_s", double(asked) / s},
+            {"sweep_per_s", double(swept) / seconds_since(sweep)}};
+}
+
+struct Orbit {
+    glm::dvec3 centre{0.0};
+    double radius_m = 1.0, away_m = 4.0;
+};
+
+lod::View view_at(const Orbit& orbit, double angle_rad) {
+    lod::View optics;
+    optics.width_px = 1280;
+    optics.height_px = 720;
+    optics.near_m = 0.01 * orbit.radius_m;
+    const glm::dvec3 way(std::cos(angle_rad), std::sin(angle_rad), 0.4);
+    return lod::look_at(orbit.centre + glm::normalize(way) * orbit.away_m, orbit.centre, {0.0, 0.0, 1.0},
+                        optics);
+}
+
+double rank(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<size_t>(std::max(std::ceil(share * double(values.size())), 1.0)) - 1];
+}
+
+/// Converges on the whole mesh at tolerance 0, and back.
+nlohmann::json operations_of_a_front(lod::MeshFront& front, const Orbit& orbit) {
+    lod::Front* fronts[] = {&front};
+    nlohmann::json rates;
+    for (const bool up : {true, false}) {
+        lod::Budget budget;
+        budget.tolerance_px = up ? 0.0 : 1e9;
+        const lod::View view = view_at(orbit, 0.0);
+        const auto begin = Clock::now();
+        front.begin_frame({&view, 1}, 0.0);
+        const lod::OperationCounts before = front.operations();
+        lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
+        const auto kind = up ? lod::OperationKind::kVsplit : lod::OperationKind::kEcol;
+        rates[up ? "vsplit_per_s" : "ecol_per_s"] =
+            double(front.operations()[kind] - before[kind]) / seconds_since(begin);
+    }
+    return rates;
+}
+
+nlohmann::json fly(lod::MeshFront& front, const Orbit& orbit, double tolerance_px, int frames) {
+    lod::Front* fronts[] = {&front};
+    lod::Budget budget;
+    budget.tolerance_px = tolerance_px;
+    lod::DrawList list;
+    std::vector<double> adapt_ms, emit_ms;
+    uint64_t operations = 0, triangles = 0, evaluations = 0, bytes = 0;
+    for (int frame = 0; frame <= frames; ++frame) {
+        const lod::View view = view_at(orbit, 0.002 * frame);
+        const lod::OperationCounts before = front.operations();
+        const uint64_t evaluated = front.evaluations();
+        const auto begin = Clock::now();
+        front.begin_frame({&view, 1}, frame / 60.0);
+        lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
+        const double adapted_s = seconds_since(begin);
+        list.clear();
+        const auto emitting = Clock::now();
+        front.emit(view, list);
+        if (frame == 0) continue;
+        adapt_ms.push_back(1e3 * adapted_s);
+        emit_ms.push_back(1e3 * seconds_since(emitting));
+        const lod::OperationCounts now = front.operations();
+        operations += now[lod::OperationKind::kVsplit] - before[lod::OperationKind::kVsplit] +
+                      now[lod::OperationKind::kEcol] - before[lod::OperationKind::kEcol];
+        evaluations += front.evaluations() - evaluated;
+        triangles += front.triangles();
+        for (const lod::IndexWrite& write : list.index_writes)
+            bytes += write.indices.size_bytes();
+    }
+    const auto mean = [&](uint64_t sum) { return double(sum) / frames; };
+    return {{"tolerance_px", tolerance_px},        {"triangles", mean(triangles)},
+            {"operations", mean(operations)},      {"evaluations", mean(evaluations)},
+            {"adapt_ms_p50", rank(adapt_ms, 0.5)}, {"adapt_ms_p99", rank(adapt_ms, 0.99)},
+            {"emit_ms_p50", rank(emit_ms, 0.5)},   {"index_bytes", mean(bytes)},
+            {"error_px", front.error_px()}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES]\n");
+        return 2;
+    }
+    const double tolerance_px = argc > 2 ? std::atof(argv[2]) : 0.5;
+    const int frames = argc > 3 ? std::atoi(argv[3]) : 600;
+    const auto bytes = data::read_file(argv[1], size_t{4} << 30);
+    if (!bytes) return std::fprintf(stderr, "%s\n", bytes.message().c_str()), 1;
+    const auto model = lod::decode_hpm(*bytes);
+    if (!model) return std::fprintf(stderr, "%s %s\n", argv[1], model.message().c_str()), 1;
+
+    std::vector<lod::ProgressiveMesh> meshes = meshes_of(*model);
+    nlohmann::json report;
+    report["cut"] = operations_of_a_cut(largest(meshes));
+    Orbit orbit{largest(meshes).centre, largest(meshes).radius_m, 0.0};
+    std::vector<lod::MeshPlacement> placements(meshes.size());
+    uint64_t full = 0;
+    for (uint32_t i = 0; i < meshes.size(); ++i) {
+        placements[i].mesh = i;
+        full += meshes[i].triangle_count();
+    }
+    report["full_triangles"] = full;
+    orbit.away_m = 3.0 * orbit.radius_m;
+    lod::MeshOptions options;
+    options.ranks.tolerance_px = tolerance_px;
+    lod::MeshFront front(lod::Module::kInstruments, std::move(meshes), placements, options);
+    front.place(front.pool_need());
+    report["front"] = operations_of_a_front(front, orbit);
+    report["orbit"] = fly(front, orbit, tolerance_px, frames);
+    std::printf("%s\n", report.dump().c_str());
+    return 0;
+}
