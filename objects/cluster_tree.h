@@ -56,6 +56,7 @@ struct Cluster {
                ///< of each other, both ways; 0 for leaves; never less than a child's
     float gamma =
         0.0f;  ///< gamma_c, 0 … 1: how far visibilities below differ from this one, as share of the time
+    float unused = 0.0f;    ///< no byte of a file is left to chance
     double weight_m = 0.0;  ///< sum over the objects below; an object's is its size_m
     ClusterId parent = kNoCluster;
     ClusterId first_child = 0;
@@ -66,7 +67,9 @@ struct Cluster {
     uint32_t object = kNoObject;    ///< into TimedScene::objects, in every leaf but an empty scene's root
     uint16_t level = 0;             ///< of the build, 0: leaves; larger than any child's
     data::MotionClass motion_class = data::MotionClass::kStatic;
+    uint8_t unused_too = 0;
 };
+static_assert(sizeof(Cluster) == 96);
 
 /// Everything a run time reads; filled by the builder or from a file, never changed afterwards.
 struct ClusterTree {
