@@ -18,7 +18,7 @@ enum class Module : uint8_t { kTerrain = 0, kObjects = 1, kInstruments = 2, kSky
 
 /// How a surface is shaded; lives in Vertex::colour[3].
 enum class Material : uint8_t {
-    kGround = 0,    ///< colour from the ground texture at `grid`; vertex colour multiplies
+    kGround = 0,    ///< colour from the ground texture at the sample
     kWall = 1,      ///< building wall: lit, faint storey lines from height above its base
     kRoof = 2,      ///< building roof: lit
     kPaint = 3,     ///< plain lit surface (models, instrument bodies)
@@ -32,8 +32,9 @@ enum class Material : uint8_t {
 struct Vertex {
     float position_hi[3];
     float position_lo[3];
-    uint16_t surface[2];  ///< kGround: texel column and row; else the normal, octahedral, snorm16 (bit-cast)
-    uint8_t colour[4];    ///< sRGB red, green, blue; Material
+    uint16_t
+        surface[2];  ///< kGround: sample (set_ground_sample); else the normal, octahedral, snorm16 (bit-cast)
+    uint8_t colour[4];  ///< sRGB red, green, blue; Material
 };
 static_assert(sizeof(Vertex) == 32 && offsetof(Vertex, position_lo) == 12 &&
               offsetof(Vertex, surface) == 24 && offsetof(Vertex, colour) == 28);
@@ -96,6 +97,21 @@ struct DrawList {
 /// @param normal  unit length, model frame
 Vertex make_vertex(const glm::dvec3& position, const glm::vec3& normal, const glm::u8vec3& colour,
                    Material material);
+
+/// Makes a vertex one of the ground that lies on a sample, column and row below 2^24. What `surface` cannot hold stands in
+/// `colour`, counted down from white.
+inline void set_ground_sample(Vertex& v, int col, int row) {
+    v.surface[0] = static_cast<uint16_t>(col & 0xffff);
+    v.surface[1] = static_cast<uint16_t>(row & 0xffff);
+    v.colour[0] = static_cast<uint8_t>(255 - (col >> 16));
+    v.colour[1] = static_cast<uint8_t>(255 - (row >> 16));
+    v.colour[2] = 255;
+    v.colour[3] = static_cast<uint8_t>(Material::kGround);
+}
+/// Column and row of a vertex of the ground.
+inline glm::ivec2 ground_sample(const Vertex& v) {
+    return {v.surface[0] | (255 - v.colour[0]) << 16, v.surface[1] | (255 - v.colour[1]) << 16};
+}
 
 /// Splits each coordinate so that hi + lo equals it within 2^-48 relative.
 void split_hi_lo(const glm::dvec3& value, float hi[3], float lo[3]);

@@ -11,6 +11,7 @@
 #include "data/line_of_sight.h"
 #include "sim/command_values.h"
 #include "sim/query_lines.h"
+#include "sim/relief_source.h"
 
 namespace sim {
 namespace {
@@ -129,7 +130,8 @@ void print_answers(const data::HeightGrid& grid, const std::vector<QueryLine>& l
 }  // namespace
 
 void add_query(CLI::App& app, QueryArguments& arguments) {
-    app.add_option("dem", arguments.sources, "rasters of heights, anything GDAL opens; the first listed wins")
+    app.add_option("dem", arguments.sources,
+                   "rasters of heights, anything GDAL opens; the first listed wins; or one terrain store")
         ->required()
         ->type_name("DEM");
     CLI::Option* points =
@@ -155,7 +157,7 @@ void add_query(CLI::App& app, QueryArguments& arguments) {
 lod::Result<lod::Ok> run_query(const QueryArguments& arguments) {
     data::HeightGridOptions reading;
     reading.voids = arguments.voids == "hole" ? data::VoidPolicy::kHole : data::VoidPolicy::kFill;
-    const auto grid = data::read_height_grid(arguments.sources, reading);
+    const auto grid = read_relief(arguments.sources, reading);
     if (!grid) return grid.error();
     auto lines = questions(arguments, grid->frame.world());
     if (!lines) return lines.error();

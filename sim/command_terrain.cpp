@@ -7,20 +7,30 @@
 #include "data/height_raster.h"
 #include "data/raster_place.h"
 #include "sim/ply_writer.h"
+#include "sim/relief_source.h"
 #include "sim/whole_file.h"
 #include "terrain/extract.h"
+#include "terrain/store/store_format.h"
 
 namespace sim {
 namespace {
+
+/// Where the file's own samples lie; a store's are the grid's.
+lod::Result<data::RasterPlace> place_of(const std::string& source, const data::HeightGrid& grid) {
+    if (terrain::is_store(source)) {
+        return data::RasterPlace::make(grid.frame.geo_transform(), grid.frame.crs_wkt(), grid.width,
+                                       grid.height);
+    }
+    const auto raster = data::read_height_raster(source, true);
+    if (!raster) return raster.error();
+    return data::RasterPlace::make(raster->geo_transform, raster->crs_wkt, raster->width, raster->height);
+}
 
 /// CRS x and y of the mesh's vertices. The grid may lie turned against its file: places go by way of the site to the
 /// file's own sample, whose CRS position is exact.
 lod::Result<std::vector<glm::dvec2>> crs_positions(const std::string& source, const data::HeightGrid& grid,
                                                    const terrain::ExtractedMesh& mesh) {
-    const auto raster = data::read_height_raster(source, true);
-    if (!raster) return raster.error();
-    const auto place =
-        data::RasterPlace::make(raster->geo_transform, raster->crs_wkt, raster->width, raster->height);
+    const auto place = place_of(source, grid);
     if (!place) return place.error();
     std::vector<glm::dvec2> points;
     points.reserve(mesh.vertices.size());
@@ -37,7 +47,7 @@ lod::Result<std::vector<glm::dvec2>> crs_positions(const std::string& source, co
 }  // namespace
 
 void add_extract(CLI::App& app, ExtractArguments& arguments) {
-    app.add_option("dem", arguments.source, "raster of heights, anything GDAL opens")
+    app.add_option("dem", arguments.source, "raster of heights, anything GDAL opens, or a terrain store")
         ->required()
         ->type_name("DEM");
     app.add_option("--max-error", arguments.max_error_m,
@@ -55,7 +65,7 @@ lod::Result<lod::Ok> run_extract(const ExtractArguments& arguments) {
     if (auto writable = check_writable(arguments.out); !writable) return writable.error();
     data::HeightGridOptions reading;
     reading.voids = arguments.voids == "hole" ? data::VoidPolicy::kHole : data::VoidPolicy::kFill;
-    const auto grid = data::read_height_grid({arguments.source}, reading);
+    const auto grid = read_relief({arguments.source}, reading);
     if (!grid) return grid.error();
     const terrain::ExtractedMesh mesh = terrain::extract(*grid, arguments.max_error_m);
     const auto positions = crs_positions(arguments.source, *grid, mesh);

@@ -36,7 +36,7 @@ lod::Result<PagedTerrain> open_paged_terrain(const TerrainSource& source, const 
         fmt::format("terrain: {} x {} samples, {:.0f} to {:.0f} m, in {} pages, {} of them here for good; "
                     "the ground by every "
                     "{}th sample; opened in {:.1f} s",
-                    header.width, header.height, header.min_m, header.max_m, header.pages.size(),
+                    header.width, header.height, header.min_m, header.max_m, header.entries.size(),
                     paged->loader->pinned_count(), ground->stride, watch.seconds()));
     PagedTerrain result;
     result.front =

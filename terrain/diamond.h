@@ -55,7 +55,11 @@ struct Domain {
     }
 };
 
-/// The domain of a raster; width and height at least 2, at most 32769.
+/// Cells a side of the largest domain: the Earth at half an arc second.
+inline constexpr int kMostLog2Side = 22;
+inline constexpr int kMostLevels = 2 * kMostLog2Side;
+
+/// The domain of a raster; width and height at least 2, at most 2^kMostLog2Side + 1.
 inline Domain make_domain(int width, int height) {
     Domain domain{width, height, 1};
     while (domain.side() + 1 < width || domain.side() + 1 < height)

@@ -34,15 +34,14 @@ void DiamondMesh::clear() {
     for (GridPoint corner :
          {GridPoint{0, 0}, GridPoint{side, 0}, GridPoint{0, side}, GridPoint{side, side}}) {
         Diamond d;
-        d.x = static_cast<uint16_t>(corner.x);
-        d.y = static_cast<uint16_t>(corner.y);
+        d.set_centre(corner);
         d.is_split = true;
         add_record(d);
     }
     Diamond root;
-    root.x = root.y = static_cast<uint16_t>(side / 2);
+    root.set_centre({side / 2, side / 2});
     // Parents of the root are the corners off its hypotenuse; direction 1 is (+, +).
-    root.apex_dir = static_cast<uint16_t>(apex_direction(domain_, root.centre(), 0)) & 7;
+    root.apex_dir = static_cast<uint32_t>(apex_direction(domain_, root.centre(), 0)) & 7;
     root.parent[0] = root.apex_dir == 1 ? 3u : 2u;
     root.parent[1] = root.apex_dir == 1 ? 0u : 1u;
     CHECK(add_record(root) == kRoot);
@@ -139,13 +138,12 @@ bool DiamondMesh::is_inside(GridPoint p) const {
 DiamondIndex DiamondMesh::make_child(const Diamond& parent, DiamondIndex index, uint32_t side,
                                      GridPoint centre) {
     Diamond c;
-    c.x = static_cast<uint16_t>(centre.x);
-    c.y = static_cast<uint16_t>(centre.y);
+    c.set_centre(centre);
     c.parent[0] = index;
     // A diamond on the border is half a diamond.
     c.parent[1] = is_inside(centre) ? kUnsplit : kOutside;
-    c.level = static_cast<uint16_t>(parent.level + 1) & 31;
-    c.apex_dir = static_cast<uint16_t>(parent.apex_dir + 2 * side + 5) & 7;
+    c.level = static_cast<uint32_t>(parent.level + 1) & 63;
+    c.apex_dir = static_cast<uint32_t>(parent.apex_dir + 2 * side + 5) & 7;
     c.slot0 = side & 3;
     return add_record(c);
 }

@@ -2,7 +2,7 @@
 //
 // Records live in one pool; kinship is by index, so neither operation searches or hashes. A record exists for
 // every split diamond and for every diamond that could be split next (one parent or both split). A leaf triangle
-// is a pair (unsplit diamond, split parent). 20 bytes a record, 16 more for the children of a split one.
+// is a pair (unsplit diamond, split parent). 24 bytes a record, 16 more for the children of a split one.
 //
 // Invariants (terrain/validate.h proves them): a split diamond's parents are split; children link back; the mesh
 // has no T-junction.
@@ -30,7 +30,10 @@ inline bool is_record(DiamondIndex index) {
     return index < kUnsplit;
 }
 
-inline constexpr uint16_t kFreeLevel = 31;
+inline constexpr uint32_t kFreeLevel = 63;
+
+inline constexpr uint32_t kMostCoordinate = (1u << 26) - 1;  ///< that a record holds
+static_assert((1u << kMostLog2Side) <= kMostCoordinate);
 
 /// Two bytes for whoever ranks the diamonds; the mesh only clears them.
 struct RankTag {
@@ -41,16 +44,22 @@ struct RankTag {
 
 /// One diamond.
 struct Diamond {
-    uint16_t x = 0, y = 0;                          ///< centre
+    uint32_t x : 26 = 0;                            ///< of the centre
+    uint32_t level : 6 = 0;                         ///< kFreeLevel: on the free list
+    uint32_t y : 26 = 0;                            ///< of the centre
+    uint32_t apex_dir : 3 = 0;                      ///< 0 … 7, diamond.h
+    uint32_t split_kids : 3 = 0;                    ///< children that are split
     DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
     uint32_t kids = kNoKids;                        ///< block of four child indices
-    uint16_t level : 5 = 0;                         ///< kFreeLevel: on the free list
-    uint16_t apex_dir : 3 = 0;                      ///< 0 … 7, diamond.h
     uint16_t slot0 : 2 = 0;                         ///< this record's place among parent[0]'s children
     uint16_t slot1 : 2 = 0;                         ///< … and among parent[1]'s
-    uint16_t split_kids : 3 = 0;                    ///< children that are split
     uint16_t is_split : 1 = 0;
     RankTag tag;
+
+    void set_centre(GridPoint centre) {
+        x = static_cast<uint32_t>(centre.x) & kMostCoordinate;
+        y = static_cast<uint32_t>(centre.y) & kMostCoordinate;
+    }
 
     bool is_used() const { return level != kFreeLevel; }
 
@@ -62,7 +71,7 @@ struct Diamond {
             slot1 = side & 3;
         }
     }
-    GridPoint centre() const { return {x, y}; }
+    GridPoint centre() const { return {static_cast<int>(x), static_cast<int>(y)}; }
 };
 
 /// Records that a split made, for whoever ranks them.
@@ -81,7 +90,7 @@ struct MergeOutcome {
     uint32_t mergeable_count = 0;
 };
 
-static_assert(sizeof(Diamond) == 20);
+static_assert(sizeof(Diamond) == 24);
 
 class DiamondMesh {
   public:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lod/base/check.h"
 #include "lod/base/parallel.h"
@@ -138,7 +137,7 @@ DiamondTable make_table_frame(const data::HeightGrid& grid) {
         table.corners[corner].height_m = grid.at(p.x, p.y);
         if (grid.void_at(p.x, p.y)) table.corners[corner].rise_and_voids = DiamondSource::kVoidCentre;
     }
-    table.slot_of_page.assign(table.layout.page_count(), DiamondTable::kAbsent);
+    table.slot_of_page = PageMap(table.layout.page_count(), DiamondTable::kAbsent);
     return table;
 }
 
@@ -152,7 +151,8 @@ DiamondTable make_diamond_table(const data::HeightGrid& grid, unsigned threads) 
 void fill_table(const data::HeightGrid& grid, DiamondTable& table, unsigned threads,
                 const std::function<void(int level)>& progress) {
     CHECK(table.slots.size() == table.layout.page_count() * kPageEntries);
-    std::iota(table.slot_of_page.begin(), table.slot_of_page.end(), 0u);
+    for (size_t page = 0; page < table.slot_of_page.size(); ++page)
+        table.slot_of_page.set(page, static_cast<uint32_t>(page));
     for (int level = table.domain.finest_level(); level >= 0; --level) {
         if (progress) progress(level);
         const int reach = table.domain.reach(level);

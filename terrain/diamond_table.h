@@ -23,6 +23,7 @@
 #include "terrain/diamond_source.h"
 #include "terrain/fact_memory.h"
 #include "terrain/page_layout.h"
+#include "terrain/page_map.h"
 
 namespace terrain {
 
@@ -36,8 +37,8 @@ struct DiamondTable {
     float min_m = 0.0f, max_m = 0.0f;  ///< heights
     bool has_voids = false;
     DiamondSource corners[4];  ///< height and void of the domain's corners: (0,0), (side,0), (0,side), …
-    std::vector<uint32_t> slot_of_page;  ///< [page] where it is; kAbsent: not here
-    FactMemory slots;                    ///< [slot][kPageEntries]
+    PageMap slot_of_page;      ///< [page] where it is; kAbsent: not here
+    FactMemory slots;          ///< [slot][kPageEntries]
 
     /// A diamond's facts, null when their page is absent. The centre must be one of this level's.
     const DiamondSource* find(GridPoint centre, int level) const {

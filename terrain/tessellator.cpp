@@ -53,10 +53,7 @@ lod::Vertex ground_vertex(const TessellationInput& input, DiamondIndex index) {
             ? world
             : world + glm::dvec3(input.glides.displacement_m(index, input.mesh[index].level));
     lod::split_hi_lo(shown, vertex.position_hi, vertex.position_lo);
-    vertex.surface[0] = static_cast<uint16_t>(p.x);
-    vertex.surface[1] = static_cast<uint16_t>(p.y);
-    vertex.colour[0] = vertex.colour[1] = vertex.colour[2] = 255;
-    vertex.colour[3] = static_cast<uint8_t>(lod::Material::kGround);
+    lod::set_ground_sample(vertex, p.x, p.y);
     return vertex;
 }
 

@@ -80,7 +80,8 @@ vec4 glass(vec3 tint, vec3 normal, vec3 towards_eye) {
 vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     vec3 colour = vec3(colour_material.rgb) / 255.0;
     vec3 towards_eye = -normalize(position_eye);
-    if (material == kGround || material == kGlow) return vec4(colour, 1.0);
+    if (material == kGround) return vec4(1.0);
+    if (material == kGlow) return vec4(colour, 1.0);
     if (material == kGlass) return glass(colour, normal, towards_eye);
     float dimming = material == kWallFoot ? 0.88 : material == kWall ? 0.97 : 1.0;
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
@@ -104,6 +105,11 @@ vec2 roof_place(Instance instance, vec3 near_eye) {
     vec3 steep = abs(decode_normal(surface));
     if (steep.z >= max(steep.x, steep.y)) return tiles.xy;
     return steep.x >= steep.y ? tiles.yz : tiles.xz;
+}
+
+// lod::ground_sample; whole numbers below 2^24 are exact.
+vec2 ground_sample() {
+    return vec2(surface | (255u - colour_material.rg) << 16);
 }
 
 // Along the wall and up.
@@ -140,7 +146,7 @@ void main() {
     v_colour = surface_colour(material, normal, eye);
     uint pattern = pattern_of(material, abs(dot(normal, up_eye.xyz)));
     vec2 wall = wall_place(normal, eye);
-    vec2 place = (vec2(surface) - ground_tiles.zw) * ground_tiles.xy + ground_phase.xy;
+    vec2 place = (ground_sample() - ground_tiles.zw) * ground_tiles.xy + ground_phase.xy;
     if (pattern == kPlain) place = vec2(0.0);
     if (pattern == kRoofing) place = roof_place(instance, near_eye);
     if (pattern >= kFirstFacade) place = wall;

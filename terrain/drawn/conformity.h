@@ -9,15 +9,25 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "lod/base/hash.h"
 #include "terrain/drawn/drawn_mesh.h"
 
 namespace terrain::drawn {
 
 inline uint64_t key_of(GridPoint p) {
-    return static_cast<uint64_t>(p.y) << 16 | static_cast<uint64_t>(p.x);
+    return static_cast<uint64_t>(p.y) << 32 | static_cast<uint64_t>(p.x);
 }
+
+/// A directed edge.
+using Edge = std::pair<GridPoint, GridPoint>;
+struct EdgeHash {
+    size_t operator()(const Edge& edge) const {
+        return lod::mix64(key_of(edge.first) ^ lod::mix64(key_of(edge.second)));
+    }
+};
 
 /// Twice the area, in cells; positive when counter-clockwise seen from above (rows run south).
 inline int64_t area_of(const DrawnTriangle& t) {
@@ -57,19 +67,19 @@ inline std::vector<DrawnTriangle> without_skirts(const std::vector<DrawnTriangle
 
 /// Edges with a triangle on one side only and a drawn vertex strictly inside: where a gap can open.
 inline size_t count_t_junctions(const std::vector<DrawnTriangle>& triangles) {
-    std::unordered_map<uint64_t, int> vertices, edges;
-    const auto edge_key = [](GridPoint a, GridPoint b) { return key_of(a) << 32 | key_of(b); };
+    std::unordered_map<uint64_t, int> vertices;
+    std::unordered_map<Edge, int, EdgeHash> edges;
     for (const DrawnTriangle& t : triangles) {
         for (size_t i = 0; i < 3; ++i) {
             ++vertices[key_of(t.samples[i])];
-            ++edges[edge_key(t.samples[i], t.samples[(i + 1) % 3])];
+            ++edges[{t.samples[i], t.samples[(i + 1) % 3]}];
         }
     }
     size_t count = 0;
     for (const DrawnTriangle& t : triangles) {
         for (size_t i = 0; i < 3; ++i) {
             const GridPoint a = t.samples[i], b = t.samples[(i + 1) % 3];
-            if (edges.count(edge_key(b, a)) == 0 && vertex_inside(a, b, vertices)) ++count;
+            if (edges.count({b, a}) == 0 && vertex_inside(a, b, vertices)) ++count;
         }
     }
     return count;
@@ -78,20 +88,20 @@ inline size_t count_t_junctions(const std::vector<DrawnTriangle>& triangles) {
 /// Empty when the triangles are conforming: every directed edge once, none folded over or empty, and no vertex
 /// inside an edge that has a triangle on one side only.
 inline std::string conformity_fault(const std::vector<DrawnTriangle>& triangles) {
-    std::unordered_map<uint64_t, int> vertices, edges;
-    const auto edge_key = [](GridPoint a, GridPoint b) { return key_of(a) << 32 | key_of(b); };
+    std::unordered_map<uint64_t, int> vertices;
+    std::unordered_map<Edge, int, EdgeHash> edges;
     for (const DrawnTriangle& t : triangles) {
         if (area_of(t) <= 0) return "a triangle at " + text(t.samples[0]) + " is empty or upside down";
         for (size_t i = 0; i < 3; ++i) {
             ++vertices[key_of(t.samples[i])];
-            if (++edges[edge_key(t.samples[i], t.samples[(i + 1) % 3])] > 1)
+            if (++edges[{t.samples[i], t.samples[(i + 1) % 3]}] > 1)
                 return "two triangles on one side of the edge at " + text(t.samples[i]);
         }
     }
     for (const DrawnTriangle& t : triangles) {
         for (size_t i = 0; i < 3; ++i) {
             const GridPoint a = t.samples[i], b = t.samples[(i + 1) % 3];
-            if (edges.count(edge_key(b, a)) > 0) continue;
+            if (edges.count({b, a}) > 0) continue;
             if (const auto p = vertex_inside(a, b, vertices)) {
                 return "T-junction: " + text(*p) + " inside " + text(a) + " to " + text(b);
             }

@@ -45,7 +45,8 @@ inline std::vector<DrawnTriangle> drawn_triangles(const PoolTwin& pool, const lo
                 const int64_t index = int64_t{pool.indices[item.first_index + corner + i]} + item.base_vertex;
                 const lod::Vertex& vertex = pool.vertices[static_cast<size_t>(index)];
                 triangle.world[i] = lod::position_of(vertex);
-                triangle.samples[i] = {vertex.surface[0], vertex.surface[1]};
+                const glm::ivec2 sample = lod::ground_sample(vertex);
+                triangle.samples[i] = {sample.x, sample.y};
             }
         }
     }

@@ -13,10 +13,7 @@ inline lod::Vertex ground_vertex(const data::HeightGrid& grid, int col, int row,
     lod::Vertex vertex;
     const glm::dvec3 world = grid.frame.world_from_sample(col, row, double(grid.at(col, row)) - drop_m);
     lod::split_hi_lo(world, vertex.position_hi, vertex.position_lo);
-    vertex.surface[0] = static_cast<uint16_t>(col);
-    vertex.surface[1] = static_cast<uint16_t>(row);
-    vertex.colour[0] = vertex.colour[1] = vertex.colour[2] = 255;
-    vertex.colour[3] = static_cast<uint8_t>(lod::Material::kGround);
+    lod::set_ground_sample(vertex, col, row);
     return vertex;
 }
 

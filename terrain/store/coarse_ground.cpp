@@ -17,7 +17,7 @@ lod::Result<CoarseGround> make_frame(const StoreHeader& header, int max_side) {
     grid.height = (header.height - 1) / ground.stride + 1;
     grid.min_m = header.min_m;
     grid.max_m = header.max_m;
-    grid.height_m.resize(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height));
+    grid.height_m.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height), header.level_m);
     if (header.has_voids) grid.is_void.resize(grid.height_m.size());
     // The first sample keeps its place: the corner of its pixel moves out.
     std::array<double, 6> place = header.geo_transform;
@@ -50,13 +50,14 @@ lod::Result<CoarseGround> read_coarse_ground(const StoreFile& store, int max_sid
         if (domain.in_raster(at)) put(*ground, at, store.header().corners[static_cast<size_t>(corner)]);
     }
     std::vector<DiamondSource> facts(kPageEntries);
-    for (size_t page = 0; page < store.layout().page_count(); ++page) {
-        const PageId id = store.layout().id(page);
+    const PageDirectory& directory = store.directory();
+    for (size_t page = directory.level_count(); page < directory.count(); ++page) {
+        const PageId id = directory.id(page);
         if (domain.reach(2 * id.group) < ground->stride) break;
         if (auto read = store.read_page(page, facts); !read) return read.error();
         for_each_diamond(domain, id, [&](GridPoint centre, int level) {
             const PagePlace place = store.layout().place(centre, level);
-            if (place.page == page) put(*ground, centre, facts[place.entry]);
+            if (place.page == directory.number(page)) put(*ground, centre, facts[place.entry]);
         });
     }
     return ground;

@@ -45,10 +45,10 @@ PageJudge::PageJudge(const StoreFile& store) {
     anchor_world_ = table.frame.world_from_sample(domain.width / 2, domain.height / 2,
                                                   0.5 * (double(table.min_m) + double(table.max_m)));
     finest_reach_m_ = kPageSide * std::min(table.frame.cell_m().x, table.frame.cell_m().y);
-    balls_.resize(store.layout().page_count());
-    for (size_t page = 0; page < balls_.size(); ++page) {
-        const PageSummary& summary = store.header().pages[page];
-        const Outline outline = outline_of(table.frame, domain, store.layout().id(page), summary);
+    balls_.resize(store.directory().count());
+    for (size_t page = store.directory().level_count(); page < balls_.size(); ++page) {
+        const PageSummary& summary = store.header().entries[page];
+        const Outline outline = outline_of(table.frame, domain, store.directory().id(page), summary);
         double radius_m = 0.0;
         for (const glm::dvec3& point : outline.points)
             radius_m = std::max(radius_m, glm::distance(point, outline.middle));

@@ -27,7 +27,7 @@ class PageJudge {
     /// The eyes that count from now on.
     void look(const std::vector<MovingEye>& eyes);
 
-    /// Pixels; 0 for a page whose absence nobody can see at any distance.
+    /// Pixels, of an entry of the store; 0 where its absence nobody can see at any distance.
     float worth_px(size_t page) const;
 
     /// Metres: half the width of a page of the finest group, the smallest motion that changes much.
@@ -49,7 +49,7 @@ class PageJudge {
 
     glm::dvec3 anchor_world_{0.0};
     double finest_reach_m_ = 0.0;
-    std::vector<Ball> balls_;  // [page]
+    std::vector<Ball> balls_;  // [entry]; level pages are worth nothing
     std::vector<Gaze> gazes_;
 };
 

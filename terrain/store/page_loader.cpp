@@ -15,9 +15,9 @@ constexpr double kLookAgain_s = 0.25;  // though nothing moved: what lingers gro
 constexpr double kTurned = 0.05;       // radians, about
 constexpr double kMovedShare = 0.125;  // of half a finest page
 
-/// Everything that is kept per page of the store, in memory or not.
-constexpr uint64_t kBytesPerPage =
-    sizeof(PageSummary) + PageJudge::bytes_per_page() + PagePlan::bytes_per_page() + sizeof(uint32_t);
+/// What is kept per entry of the store, in memory or not, beside its directory and the table's map.
+constexpr uint64_t kBytesPerEntry =
+    sizeof(PageSummary) + PageJudge::bytes_per_page() + PagePlan::bytes_per_page();
 /// And per slot: its facts, and its places in the lists.
 constexpr uint64_t kBytesPerSlot = kPageBytes + 6 * sizeof(size_t);
 
@@ -33,6 +33,12 @@ bool is_alike(const MovingEye& a, const MovingEye& b, double moved_m) {
            glm::distance(a.velocity_mps, b.velocity_mps) <= 0.1 * speed;
 }
 
+/// Of a store that is open, whatever its slots.
+uint64_t overhead_bytes(const StoreFile& store) {
+    return store.directory().count() * kBytesPerEntry + store.directory().memory_bytes() +
+           store.make_table().slot_of_page.memory_bytes();
+}
+
 /// The calling thread yields to the frame's: waking it never takes a processor from who woke it. Where the system
 /// knows no such thing nothing is lost but that.
 void step_back() {
@@ -44,16 +50,16 @@ void step_back() {
 }  // namespace
 
 lod::Result<PagedTable> open_paged_table(StoreFile store, const PageLoaderOptions& options) {
-    const size_t page_count = store.layout().page_count();
-    const uint64_t overhead = page_count * kBytesPerPage;
-    const uint64_t least = overhead + std::min(kLeastSlots, page_count) * kBytesPerSlot;
+    const size_t count = store.directory().count();
+    const uint64_t overhead = overhead_bytes(store);
+    const size_t least_slots = std::min(kLeastSlots + 2 * store.directory().level_count(), count);
+    const uint64_t least = overhead + least_slots * kBytesPerSlot;
     if (options.memory_bytes < least) {
         return lod::Error{"terrain store '" + store.path() + "': a limit of " +
                           std::to_string(options.memory_bytes) + " bytes is too little, expected at least " +
                           std::to_string(least)};
     }
-    const size_t slot_count =
-        std::min<uint64_t>(page_count, (options.memory_bytes - overhead) / kBytesPerSlot);
+    const size_t slot_count = std::min<uint64_t>(count, (options.memory_bytes - overhead) / kBytesPerSlot);
     PagedTable paged{store.make_table(), nullptr};
     paged.table.slots = FactMemory(slot_count * kPageEntries);
     paged.loader.reset(new PageLoader(std::move(store), options, slot_count));
@@ -65,9 +71,9 @@ lod::Result<PagedTable> open_paged_table(StoreFile store, const PageLoaderOption
 PageLoader::PageLoader(StoreFile store, const PageLoaderOptions& options, size_t slot_count)
     : store_(std::move(store)),
       options_(options),
-      memory_bytes_(store_.layout().page_count() * kBytesPerPage + slot_count * kBytesPerSlot),
+      memory_bytes_(overhead_bytes(store_) + slot_count * kBytesPerSlot),
       judge_(store_),
-      plan_(store_.layout(), slot_count, static_cast<float>(options.want_px)) {
+      plan_(store_.directory(), slot_count, static_cast<float>(options.want_px)) {
     mail_.came.reserve(slot_count);
     mail_.leaving.reserve(slot_count);
     mail_.left.reserve(slot_count);
@@ -89,7 +95,8 @@ lod::Result<lod::Ok> PageLoader::read_pinned(DiamondTable& table) {
     for (size_t page = 0; page < plan_.pinned_count(); ++page) {
         auto read = store_.read_page(page, {slots_ + page * kPageEntries, kPageEntries});
         if (!read) return read.error();
-        table.slot_of_page[page] = static_cast<uint32_t>(page);
+        if (!store_.directory().is_level(page))
+            table.slot_of_page.set(store_.directory().number(page), static_cast<uint32_t>(page));
     }
     return lod::Ok{};
 }
@@ -123,9 +130,9 @@ size_t PageLoader::exchange(std::span<const lod::View> views, double time_s, Dia
 PageLoader::Trade PageLoader::trade(DiamondTable& table) {
     const Trade trade{mail_.came.size(), mail_.leaving.size()};
     for (const PagePlan::Placement& placement : mail_.came)
-        table.slot_of_page[placement.page] = placement.slot;
+        table.slot_of_page.set(store_.directory().number(placement.page), placement.slot);
     for (size_t page : mail_.leaving)
-        table.slot_of_page[page] = DiamondTable::kAbsent;
+        table.slot_of_page.set(store_.directory().number(page), DiamondTable::kAbsent);
     mail_.left.insert(mail_.left.end(), mail_.leaving.begin(), mail_.leaving.end());
     mail_.came.clear();
     mail_.leaving.clear();

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "terrain/store/page_tree.h"
-
 namespace terrain {
 namespace {
 
@@ -12,16 +10,13 @@ constexpr size_t kMostLeavers = 256;  // at once
 
 }  // namespace
 
-PagePlan::PagePlan(const PageLayout& layout, size_t slot_count, float want_px)
-    : layout_(layout), want_px_(want_px), pages_(layout.page_count()) {
-    const auto pages_below = [&](int group) {
-        return group == layout.group_count() ? layout.page_count() : layout.number({group, 0, 0});
-    };
-    while (first_loose_group_ < layout.group_count() &&
-           pages_below(first_loose_group_ + 1) <= slot_count / kPinnedShare) {
+PagePlan::PagePlan(const PageDirectory& directory, size_t slot_count, float want_px)
+    : directory_(directory), want_px_(want_px), pages_(directory.count()) {
+    while (first_loose_group_ < directory.layout().group_count() &&
+           directory.first_of_group(first_loose_group_ + 1) <= slot_count / kPinnedShare) {
         ++first_loose_group_;
     }
-    pinned_ = pages_below(first_loose_group_);
+    pinned_ = directory.first_of_group(first_loose_group_);
     CHECK(pinned_ <= slot_count);
     room_ = slot_count - pinned_;
     for (size_t slot = slot_count; slot-- > pinned_;)
@@ -53,8 +48,7 @@ void PagePlan::walk(const PageJudge& judge) {
     wanted_.clear();
     stack_.clear();
     const auto push_children = [&](size_t page) {
-        for_each_child(layout_, layout_.id(page), [&](const PageId& child) {
-            const size_t number = layout_.number(child);
+        directory_.for_each_child(page, [&](size_t number) {
             const float worth = std::min(judge.worth_px(number), pages_[page].worth_px);
             if (worth < want_px_ || pages_[number].state == State::kBroken) return;
             pages_[number].worth_px = worth;
@@ -63,7 +57,7 @@ void PagePlan::walk(const PageJudge& judge) {
             stack_.push_back(number);
         });
     };
-    for (size_t page = layout_.number({first_loose_group_ - 1, 0, 0}); page < pinned_; ++page) {
+    for (size_t page = directory_.first_of_group(first_loose_group_ - 1); page < pinned_; ++page) {
         pages_[page].worth_px = judge.worth_px(page);
         push_children(page);
     }
@@ -100,7 +94,7 @@ void PagePlan::give_up(size_t number) {
 }
 
 void PagePlan::count_child(size_t number, int change) {
-    Page& above = pages_[layout_.number(parent_of(layout_, layout_.id(number)))];
+    Page& above = pages_[directory_.parent(number)];
     above.children_here = static_cast<uint8_t>(above.children_here + change);
 }
 

@@ -1,5 +1,7 @@
 // PagePlan: which pages are to be in memory, which come next and which go: decisions only, no file and no thread.
 //
+// A page is named by its entry in the store.
+//
 // Pages are looked for top-down from those that always stay; a page is wanted while it is worth want_px. The wanted
 // ones, worthiest first, as many as there is room for, are the deserving. Missing deserving pages come in that order.
 //
@@ -11,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/page_layout.h"
+#include "terrain/store/page_directory.h"
 #include "terrain/store/page_judge.h"
 
 namespace terrain {
@@ -30,14 +32,14 @@ class PagePlan {
     static constexpr double kLinger_s = 1.0;
     static constexpr float kClearly = 1.5f;
 
-    /// @param layout      kept by reference
+    /// @param directory   kept by reference
     /// @param slot_count  pages there is room for
     /// @param want_px     >= 0
-    PagePlan(const PageLayout& layout, size_t slot_count, float want_px);
+    PagePlan(const PageDirectory& directory, size_t slot_count, float want_px);
 
     /// Groups below this one always stay, 1 at least: as many as take no more than an eighth of the room.
     int first_loose_group() const { return first_loose_group_; }
-    /// Their pages: the first of the layout, each in the slot of its number.
+    /// Their pages and the level pages: the first of the directory, each in the slot of its entry.
     size_t pinned_count() const { return pinned_; }
 
     /// Judges all anew. @param age_s  a clock that never goes back
@@ -81,7 +83,7 @@ class PagePlan {
     bool may_leave(size_t page) const;
     size_t missing_count() const;
 
-    const PageLayout& layout_;
+    const PageDirectory& directory_;
     float want_px_;
     int first_loose_group_ = 1;
     size_t pinned_ = 0;  // pages that always stay
@@ -89,7 +91,7 @@ class PagePlan {
     size_t leaving_ = 0;
     uint32_t look_ = 0;
     double age_s_ = 0.0;
-    std::vector<Page> pages_;  // [page]
+    std::vector<Page> pages_;  // [entry]
     std::vector<uint32_t> free_slots_;
     std::vector<size_t> here_;    // loose pages that are here or leaving
     std::vector<size_t> wanted_;  // worthiest first, cut to the deserving

@@ -6,14 +6,9 @@
 
 #include "data/height_grid.h"
 #include "lod/base/result.h"
+#include "terrain/store/store_writer.h"
 
 namespace terrain {
-
-/// What was written.
-struct StoreReport {
-    uint64_t file_bytes = 0;
-    size_t page_count = 0;
-};
 
 /// Writes the table of a grid, bit for bit make_diamond_table's, to a temporary name beside `path` and renames it:
 /// there is a whole store or none. The result does not depend on the number of threads.

@@ -6,6 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+
+#include "terrain/store/page_directory.h"
 
 namespace terrain {
 namespace {
@@ -14,8 +17,9 @@ static_assert(std::endian::native == std::endian::little,
               "stores are read and written as they lie in memory");
 
 constexpr std::array<char, 8> kName = {'H', 'a', 'r', 'r', 'i', 'e', 'r', 'T'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr uint32_t kMostCrs_bytes = 1u << 20;
+constexpr uint64_t kMostPages = 0xffffff00u;  // that a 32-bit entry can name
 
 struct Preamble {
     std::array<char, 8> name = kName;
@@ -27,14 +31,26 @@ struct Preamble {
     float min_m = 0.0f, max_m = 0.0f;
     uint32_t has_voids = 0, crs_bytes = 0;
     std::array<DiamondSource, 4> corners{};
-    uint64_t page_count = 0;
+    float level_m = 0.0f;
+    uint32_t level_count = 0;  ///< level pages
+    uint64_t page_count = 0;   ///< pages held, level pages not among them
 };
-static_assert(sizeof(Preamble) == 144);
+static_assert(sizeof(Preamble) == 152);
 constexpr size_t kChecked_bytes = offsetof(Preamble, checksum) + sizeof(uint32_t);
 
-uint64_t header_bytes(uint64_t crs_bytes, uint64_t page_count) {
-    const uint64_t used = sizeof(Preamble) + crs_bytes + page_count * sizeof(PageSummary);
+/// Numbers are told only where pages are left out.
+uint64_t directory_bytes(uint64_t level_count, uint64_t page_count) {
+    return (level_count + page_count) * sizeof(PageSummary) +
+           (level_count > 0 ? page_count * sizeof(uint64_t) : 0);
+}
+
+uint64_t header_bytes(uint64_t crs_bytes, uint64_t level_count, uint64_t page_count) {
+    const uint64_t used = sizeof(Preamble) + crs_bytes + directory_bytes(level_count, page_count);
     return (used + kStoreAlignment_bytes - 1) / kStoreAlignment_bytes * kStoreAlignment_bytes;
+}
+
+bool is_side_sane(int32_t side) {
+    return side >= 2 && side <= (1 << kMostLog2Side) + 1;
 }
 
 /// What a preamble claims, before anything is allocated for it; empty when it can be.
@@ -45,15 +61,20 @@ std::string fault_of(const Preamble& preamble, uint64_t size_bytes) {
                std::to_string(kVersion) + "; build it anew";
     }
     const std::string damaged = "has a damaged header, expected a whole terrain store; build it anew";
-    const bool is_size_sane = preamble.width >= 2 && preamble.height >= 2 && preamble.width <= 32769 &&
-                              preamble.height <= 32769 && preamble.crs_bytes <= kMostCrs_bytes;
-    if (!is_size_sane) return damaged;
-    const uint64_t pages = PageLayout(make_domain(preamble.width, preamble.height)).page_count();
-    const uint64_t header = header_bytes(preamble.crs_bytes, pages);
-    if (preamble.page_count != pages || preamble.header_bytes != header ||
-        preamble.file_bytes != header + pages * kPageBytes) {
+    if (!is_side_sane(preamble.width) || !is_side_sane(preamble.height) ||
+        preamble.crs_bytes > kMostCrs_bytes)
         return damaged;
-    }
+    const PageLayout layout(make_domain(preamble.width, preamble.height));
+    const bool lacks_some = preamble.level_count > 0;
+    const bool is_count_sane =
+        lacks_some ? preamble.level_count == static_cast<uint32_t>(layout.group_count()) &&
+                         preamble.page_count < layout.page_count() && preamble.page_count < kMostPages
+                   : preamble.page_count == layout.page_count();
+    if (!is_count_sane) return damaged;
+    const uint64_t header = header_bytes(preamble.crs_bytes, preamble.level_count, preamble.page_count);
+    const uint64_t entries = preamble.level_count + preamble.page_count;
+    if (preamble.header_bytes != header || preamble.file_bytes != header + entries * kPageBytes)
+        return damaged;
     if (size_bytes != preamble.file_bytes) {
         return "has " + std::to_string(size_bytes) + " bytes, expected " +
                std::to_string(preamble.file_bytes) + "; build it anew";
@@ -68,13 +89,13 @@ uint32_t checksum_of(const void* bytes, size_t size_bytes) {
 }
 
 uint64_t StoreHeader::size_bytes() const {
-    return header_bytes(crs_wkt.size(), pages.size());
+    return header_bytes(crs_wkt.size(), entries.size() - numbers.size(), numbers.size());
 }
 
 std::string pack_header(const StoreHeader& header) {
     Preamble preamble;
     preamble.header_bytes = header.size_bytes();
-    preamble.file_bytes = preamble.header_bytes + header.pages.size() * kPageBytes;
+    preamble.file_bytes = preamble.header_bytes + header.entries.size() * kPageBytes;
     preamble.width = header.width;
     preamble.height = header.height;
     preamble.geo_transform = header.geo_transform;
@@ -83,12 +104,18 @@ std::string pack_header(const StoreHeader& header) {
     preamble.has_voids = header.has_voids ? 1 : 0;
     preamble.crs_bytes = static_cast<uint32_t>(header.crs_wkt.size());
     preamble.corners = header.corners;
-    preamble.page_count = header.pages.size();
+    preamble.level_m = header.level_m;
+    preamble.level_count = static_cast<uint32_t>(header.entries.size() - header.numbers.size());
+    preamble.page_count = header.numbers.size();
     std::string bytes(preamble.header_bytes, '\0');
     char* crs = bytes.data() + sizeof(Preamble);
     std::memcpy(bytes.data(), &preamble, sizeof(Preamble));
     std::memcpy(crs, header.crs_wkt.data(), header.crs_wkt.size());
-    std::memcpy(crs + header.crs_wkt.size(), header.pages.data(), header.pages.size() * sizeof(PageSummary));
+    char* directory = crs + header.crs_wkt.size();
+    std::memcpy(directory, header.entries.data(), header.entries.size() * sizeof(PageSummary));
+    directory += header.entries.size() * sizeof(PageSummary);
+    if (preamble.level_count > 0)
+        std::memcpy(directory, header.numbers.data(), header.numbers.size() * sizeof(uint64_t));
     preamble.checksum = checksum_of(bytes.data() + kChecked_bytes, bytes.size() - kChecked_bytes);
     std::memcpy(bytes.data(), &preamble, sizeof(Preamble));
     return bytes;
@@ -123,9 +150,19 @@ lod::Result<StoreHeader> read_header(const FileHandle& file, const std::string& 
     header.max_m = preamble.max_m;
     header.has_voids = preamble.has_voids != 0;
     header.corners = preamble.corners;
-    header.pages.resize(preamble.page_count);
-    std::memcpy(header.pages.data(), bytes.data() + sizeof(Preamble) + preamble.crs_bytes,
-                header.pages.size() * sizeof(PageSummary));
+    header.level_m = preamble.level_m;
+    header.entries.resize(preamble.level_count + preamble.page_count);
+    header.numbers.resize(preamble.page_count);
+    const char* directory = bytes.data() + sizeof(Preamble) + preamble.crs_bytes;
+    std::memcpy(header.entries.data(), directory, header.entries.size() * sizeof(PageSummary));
+    if (preamble.level_count == 0) {
+        std::iota(header.numbers.begin(), header.numbers.end(), uint64_t{0});
+        return header;
+    }
+    std::memcpy(header.numbers.data(), directory + header.entries.size() * sizeof(PageSummary),
+                header.numbers.size() * sizeof(uint64_t));
+    if (!PageDirectory::is_sound(PageLayout(make_domain(header.width, header.height)), header.numbers))
+        return lod::Error{where + "has a damaged header, expected a whole terrain store; build it anew"};
     return header;
 }
 

@@ -2,9 +2,9 @@
 //
 //     0              preamble: name, version, checksum, sizes, the raster's place and extremes
 //                    CRS as WKT
-//                    directory: 16 bytes a page
+//                    directory: 16 bytes an entry; 8 bytes a page, its number, where some are left out
 //                    zeros up to a multiple of 4096
-//     header_bytes   pages as they lie in memory, coarsest group first (page_layout.h), nothing between them
+//     header_bytes   entries as they lie in memory, in the directory's order (page_directory.h), nothing between them
 //
 // Little-endian. The header's checksum covers everything behind it up to the pages, a page's stands in the
 // directory: whatever is cut, flipped or from elsewhere is told before it is used.
@@ -25,7 +25,7 @@ namespace terrain {
 inline constexpr uint64_t kPageBytes = kPageEntries * sizeof(DiamondSource);
 inline constexpr uint64_t kStoreAlignment_bytes = 4096;
 
-/// What is known of a page without reading it.
+/// What is known of an entry without reading it.
 struct PageSummary {
     uint32_t checksum = 0;    ///< CRC-32 of its bytes
     uint16_t error_code = 0;  ///< decode_length: the largest error of what cannot be split without this page
@@ -42,7 +42,9 @@ struct StoreHeader {
     float min_m = 0.0f, max_m = 0.0f;
     bool has_voids = false;
     std::array<DiamondSource, 4> corners{};
-    std::vector<PageSummary> pages;  ///< [PageLayout::page_count()]
+    float level_m = 0.0f;              ///< height of the ground that no page tells of
+    std::vector<uint64_t> numbers;     ///< of the pages held (page_directory.h)
+    std::vector<PageSummary> entries;  ///< [PageDirectory::count()]
 
     uint64_t size_bytes() const;  ///< where the pages begin
 };

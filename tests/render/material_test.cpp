@@ -53,7 +53,8 @@ TEST_F(RendererTest, TheGroundTextureHasItsTexelsOnTheSamples) {
     const lod::View view = level_view(120, 120);
     Scene scene;
     // Samples are 24 px apart; sample (0, 0) lies at pixel (12.5, 12.5), on a pixel's centre.
-    add_quad(rectangle(view, {-47.5, -48.5}, {48.5, 47.5}, 5.0), {.material = Material::kGround}, scene);
+    add_quad(rectangle(view, {-47.5, -48.5}, {48.5, 47.5}, 5.0),
+             {.colour = {255, 255, 255}, .material = Material::kGround}, scene);
     const uint16_t last = kGrid - 1;
     const std::array<std::array<uint16_t, 2>, 6> sample{
         {{0, last}, {last, last}, {last, 0}, {0, last}, {last, 0}, {0, 0}}};
@@ -75,13 +76,15 @@ TEST_F(RendererTest, TheGroundTextureHasItsTexelsOnTheSamples) {
 TEST_F(RendererTest, ABadGroundTextureIsRefusedAndTheOldOneStays) {
     RENDERER_OR_SKIP(renderer, 16, 16);
     const std::vector<uint8_t> rgba(16);
+    constexpr std::array<uint8_t, 4> kGood{9, 8, 7, 255};
+    ASSERT_TRUE(renderer.set_ground_texture(1, 1, kGood, 1, 1));
     EXPECT_FALSE(renderer.set_ground_texture(3, 3, rgba, 3, 3));
     EXPECT_FALSE(renderer.set_ground_texture(0, 4, rgba, 1, 1));
     EXPECT_FALSE(renderer.set_ground_texture(1 << 24, 1, rgba, 1, 1));
     const lod::View view = level_view(16, 16);
     Scene scene;
-    add_quad(rectangle(view, {-8, -8}, {8, 8}, 5.0), {.colour = {9, 8, 7}, .material = Material::kGround},
-             scene);
+    add_quad(rectangle(view, {-8, -8}, {8, 8}, 5.0),
+             {.colour = {255, 255, 255}, .material = Material::kGround}, scene);
     draw(view, vacuum(), scene, renderer);
     EXPECT_EQ(pixel(renderer.read_colour(), 8, 8), 0x090807u);
 }

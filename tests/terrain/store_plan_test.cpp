@@ -20,7 +20,7 @@ struct Rig {
         : store(terrain_test::build_and_open(terrain_test::fractal_grid(1025, 1025, 10.0, 900.0, 1),
                                              folder.file("a.hts"))),
           judge(store),
-          plan(store.layout(), room, want_px),
+          plan(store.directory(), room, want_px),
           slot_count(room) {}
 
     /// One look, then loads and departures until nothing changes.
