@@ -44,9 +44,11 @@ DrawnTriangles triangles_of(const DrawnBuffers& buffers, const lod::View& view) 
         if (instance.module == static_cast<uint32_t>(lod::Module::kSky)) continue;
         const Placement at{instance, view, lambda_px};
         for (uint32_t corner = 0; corner + 2 < command.index_count; corner += 3) {
+            const uint32_t* named = &buffers.indices[command.first_index + corner];
+            if (named[0] == named[1]) continue;  // fills a gap between others
             std::array<glm::dvec3, 3> triangle;
             for (uint32_t i = 0; i < 3; ++i) {
-                const int64_t index = int64_t{buffers.indices[command.first_index + corner + i]};
+                const int64_t index = int64_t{named[i]};
                 triangle[i] =
                     world_of(buffers.vertices[static_cast<size_t>(index + command.base_vertex)], at);
             }

@@ -18,7 +18,7 @@ struct DrawnBuffers {
     std::span<const uint32_t> indices;
 };
 
-/// Every triangle the commands draw, in their order; the sky is left out. Positions of world instances are
+/// Every triangle the commands draw, in their order; the sky is left out, and what names a vertex twice. Positions of world instances are
 /// hi + lo exactly; others pass through the instance's float matrix. Wall feet are lowered as the shader does.
 /// @param view  the view that was drawn
 DrawnTriangles triangles_of(const DrawnBuffers& buffers, const lod::View& view);

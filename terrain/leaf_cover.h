@@ -1,10 +1,10 @@
-// LeafCover: which leaf triangles are drawn at all: not those squeezed to nothing beyond the raster, not holes.
+// LeafCover: which triangles are drawn at all: not those squeezed to nothing beyond the raster, not holes.
 #pragma once
 
 #include <span>
 
+#include "terrain/bintree_triangle.h"
 #include "terrain/diamond_rank.h"
-#include "terrain/leaf_walk.h"
 
 namespace terrain {
 
@@ -13,18 +13,18 @@ struct LeafCover {
     const DiamondMesh& mesh;
     std::span<const DiamondRank> ranks;  ///< [record]
 
-    /// @param diamond  as LeafWalk gives it: the record whose half the leaf is, kOutside for half a cell
-    bool is_drawn(const Leaf& leaf, DiamondIndex diamond, int half) const {
-        if (is_squeezed(leaf)) return false;
+    bool is_drawn(const BintreeTriangle& leaf) const {
+        if (is_squeezed(mesh[leaf.apex].centre(), mesh[leaf.left].centre(), mesh[leaf.right].centre()))
+            return false;
         if (!table.has_voids) return true;
-        if (diamond == kOutside) return !is_void(leaf.apex) && !is_void(leaf.left) && !is_void(leaf.right);
-        return !ranks[diamond].source.is_half_empty(mesh[diamond].apex_dir + 4 * half);
+        if (leaf.diamond == kOutside)
+            return !is_void(leaf.apex) && !is_void(leaf.left) && !is_void(leaf.right);
+        return !ranks[leaf.diamond].source.is_half_empty(mesh[leaf.diamond].apex_dir + 4 * leaf.half);
     }
 
   private:
-    bool is_squeezed(const Leaf& leaf) const {
+    bool is_squeezed(GridPoint a, GridPoint b, GridPoint c) const {
         const Domain& domain = table.domain;
-        GridPoint a = mesh[leaf.apex].centre(), b = mesh[leaf.left].centre(), c = mesh[leaf.right].centre();
         if (domain.in_raster(a) && domain.in_raster(b) && domain.in_raster(c)) return false;
         a = domain.clamped(a);
         b = domain.clamped(b);

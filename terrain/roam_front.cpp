@@ -39,7 +39,7 @@ void RoamFront::reset() {
     mesh_.clear();
     mesh_.reserve(options_.reserve_triangles);
     grow_arrays();
-    tessellator_.forget_vertices();
+    tessellator_.forget();
     for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
         ranks_[corner].source = table_.corners[corner];
         wake_m_[corner] = wake_rad_[corner] = kNever;
@@ -140,6 +140,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
+    tessellator_.change(mesh_[index].centre());
     if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
@@ -217,6 +218,7 @@ lod::Step RoamFront::refine() {
 void RoamFront::merge_one(DiamondIndex index) {
     unlink(index);
     glides_.drop(index, mesh_[index].level);
+    tessellator_.change(mesh_[index].centre());
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);

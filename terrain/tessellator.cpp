@@ -2,44 +2,59 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "lod/base/check.h"
 #include "lod/sight_metric.h"
-#include "terrain/leaf_cover.h"
 
 namespace terrain {
 namespace {
 
-constexpr uint32_t kPageSize = 64;  ///< vertices written together, 2 KiB; a word of `fresh_`
+constexpr uint32_t kPageSize = 64;  ///< vertices to a word of `fresh_`
 
-/// Leaves what one view cannot see, writes the rest as indices.
-struct IndexWriter {
-    /// Whether a subtree may be in view; once fully inside, its children need no test.
-    enum class State : uint8_t { kUnknown, kInside };
+/// Draws the runs that one view may see, in as few stretches of the list as is sensible.
+struct RunPicker {
+    /// What lies between two runs is drawn as well when it is at most this many indices: an item costs more.
+    static constexpr uint32_t kBridge = 3 * 128;
+    /// Nodes of at most this many indices are seen as a whole or not at all.
+    static constexpr uint32_t kUnit = 3 * 64;
 
     const TessellationInput& input;
     const lod::AnchoredEye& eye;
-    LeafCover cover;
-    std::vector<uint32_t>& indices;
+    std::span<const RunNode> nodes;
+    std::vector<IndexRange>& stretches;
+    uint64_t index_count = 0;    ///< in the stretches, without what fills room
+    uint64_t skipped_count = 0;  ///< since the last stretch
 
-    bool enter(DiamondIndex index, State& state) const {
-        if (state == State::kInside) return true;
-        const Diamond& d = input.mesh[index];
-        const DiamondBound bound = input.bound_of(d, input.ranks[index].source);
+    void visit(uint32_t id) {
+        const RunNode& node = nodes[id];
+        const DiamondIndex diamond = node.triangle.diamond;
+        const DiamondBound bound = input.bound_of(input.mesh[diamond], input.ranks[diamond].source);
         // Vertices under way may be shown outside the bound of their own.
         const float radius_m = bound.radius_m + input.glides.farthest_m();
         const float outside = eye.distance_outside_m(eye.to_eye(bound.centre), radius_m);
-        if (outside > 0.0f) return false;
-        if (outside < -2.0f * radius_m) state = State::kInside;
-        return true;
+        if (outside > 0.0f) {
+            skipped_count += node.count;
+            return;
+        }
+        if (node.count <= kUnit || outside < -2.0f * radius_m) return draw(node);
+        visit(node.children);
+        visit(node.children + 1);
     }
 
-    /// Counter-clockwise seen from above: rows run south, so left and right change places.
-    void leaf(const Leaf& leaf, DiamondIndex diamond, int half) const {
-        if (!cover.is_drawn(leaf, diamond, half)) return;
-        indices.push_back(leaf.apex);
-        indices.push_back(leaf.right);
-        indices.push_back(leaf.left);
+  private:
+    /// All that hangs below a node, with what fills its room.
+    void draw(const RunNode& node) {
+        if (node.count == 0) return;
+        index_count += node.count;
+        const uint32_t end = node.first + node.room;
+        if (!stretches.empty() && node.first - stretches.back().end() <= kBridge) {
+            stretches.back().count = end - stretches.back().first;
+            index_count += skipped_count;
+        } else {
+            stretches.push_back({node.first, node.room});
+        }
+        skipped_count = 0;
     }
 };
 
@@ -64,12 +79,17 @@ void Tessellator::add_vertex(DiamondIndex index) {
     fresh_[index / kPageSize] |= uint64_t{1} << (index % kPageSize);
 }
 
-void Tessellator::forget_vertices() {
+void Tessellator::change(GridPoint centre) {
+    runs_.mark(centre);
+}
+
+void Tessellator::forget() {
     std::fill(fresh_.begin(), fresh_.end(), 0);
+    runs_.mark_all();
 }
 
 lod::PoolRegion Tessellator::need(uint64_t triangles, uint32_t records) {
-    return {0, records, 0, static_cast<uint32_t>(3 * triangles)};
+    return {0, records, 0, IndexRuns::room_for(triangles)};
 }
 
 void Tessellator::place(const lod::PoolRegion& region) {
@@ -78,68 +98,73 @@ void Tessellator::place(const lod::PoolRegion& region) {
     vertices_.resize(pages * kPageSize);
     fresh_.resize(std::max(pages, fresh_.size()));
     is_all_stale_ = true;
+    runs_.reset(region.index_capacity);
 }
 
-/// Makes the new vertices of a page; whether the page must be written.
-bool Tessellator::refresh_page(const TessellationInput& input, uint32_t page) {
-    uint64_t bits = page < fresh_.size() ? fresh_[page] : 0;
-    if (bits == 0) return is_all_stale_;
-    fresh_[page] = 0;
+/// Makes the new vertices of a page; those with a bit in `bits` must be written.
+void Tessellator::refresh_page(const TessellationInput& input, uint32_t page, uint64_t bits) {
     for (; bits != 0; bits &= bits - 1) {
         const DiamondIndex index = page * kPageSize + static_cast<uint32_t>(std::countr_zero(bits));
         if (input.mesh[index].is_used() && input.mesh[index].is_split)
             vertices_[index] = ground_vertex(input, index);
     }
-    return true;
 }
 
 void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& out) {
-    const uint32_t page_count = (input.mesh.record_count() + kPageSize - 1) / kPageSize;
-    const size_t most_pages = (region_.vertex_capacity + kPageSize - 1) / kPageSize;
-    out.vertex_writes.reserve(out.vertex_writes.size() + most_pages / 2 + 1);  // every other page, at most
-    uint32_t run_begin = 0, run_length = 0;
-    const auto flush = [&] {
-        if (run_length == 0) return;
-        const uint32_t first = run_begin * kPageSize;
-        const uint32_t count = std::min(run_length * kPageSize, region_.vertex_capacity - first);
-        out.vertex_writes.push_back({region_.first_vertex + first, {&vertices_[first], count}});
-        run_length = 0;
+    const uint32_t count = input.mesh.record_count();
+    out.vertex_writes.reserve(out.vertex_writes.size() + region_.vertex_capacity / 2 + 1);  // every other one
+    const auto write = [&](uint32_t first, uint32_t end) {
+        out.vertex_writes.push_back({region_.first_vertex + first, {&vertices_[first], end - first}});
     };
-    for (uint32_t page = 0; page < page_count; ++page) {
-        if (refresh_page(input, page)) {
-            if (run_length == 0) run_begin = page;
-            ++run_length;
-        } else {
-            flush();
+    for (uint32_t page = 0; page * kPageSize < count && page < fresh_.size(); ++page) {
+        uint64_t bits = std::exchange(fresh_[page], 0);
+        refresh_page(input, page, bits);
+        while (bits != 0 && !is_all_stale_) {
+            const auto first = static_cast<uint32_t>(std::countr_zero(bits));
+            const auto length = static_cast<uint32_t>(std::countr_one(bits >> first));
+            write(page * kPageSize + first, page * kPageSize + first + length);
+            bits = first + length == kPageSize ? 0 : bits >> (first + length) << (first + length);
         }
     }
-    flush();
+    if (is_all_stale_) write(0, count);
     is_all_stale_ = false;
+}
+
+void Tessellator::write_indices(const TessellationInput& input, lod::DrawList& out) {
+    runs_.update(input.mesh, {{input.table, input.mesh, input.ranks}, runs_.fresh()});
+    out.index_writes.reserve(out.index_writes.size() + runs_.most_runs());
+    for (const IndexRange& range : runs_.changed())
+        out.index_writes.push_back(
+            {region_.first_index + range.first, runs_.list().subspan(range.first, range.count)});
+}
+
+void Tessellator::add_items(const TessellationInput& input, const lod::View& view, lod::DrawList& out) {
+    const lod::AnchoredEye eye(view, input.bound_of.anchor_world());
+    stretches_.clear();
+    stretches_.reserve(runs_.most_runs());
+    RunPicker picker{input, eye, runs_.nodes(), stretches_};
+    picker.visit(0);
+    picker.visit(1);
+    emitted_ = picker.index_count / 3;
+    if (emitted_ == 0) return;
+    out.items.reserve(out.items.size() + runs_.most_runs());
+    for (const IndexRange& stretch : stretches_) {
+        out.items.push_back({stretch.count, region_.first_index + stretch.first,
+                             static_cast<int32_t>(region_.first_vertex),
+                             static_cast<uint32_t>(out.instances.size()), false});
+    }
+    out.instances.push_back(
+        lod::make_world_instance(view.eye_world, view.eye_from_world, lod::Module::kTerrain));
 }
 
 void Tessellator::emit(const TessellationInput& input, const lod::View& view, lod::DrawList& out) {
     CHECK(input.mesh.record_count() <= region_.vertex_capacity);
     if (is_first_view_) {
         write_vertices(input, out);
-        indices_.clear();
-        indices_.reserve(region_.index_capacity);
+        write_indices(input, out);
         is_first_view_ = false;
     }
-    const size_t first = indices_.size();
-    const lod::AnchoredEye eye(view, input.bound_of.anchor_world());
-    IndexWriter writer{input, eye, {input.table, input.mesh, input.ranks}, indices_};
-    LeafWalk(input.mesh, writer).run(IndexWriter::State::kUnknown);
-    emitted_ = (indices_.size() - first) / 3;
-    CHECK(indices_.size() <= region_.index_capacity);
-    if (emitted_ == 0) return;
-    const uint32_t first_index = region_.first_index + static_cast<uint32_t>(first);
-    out.index_writes.push_back({first_index, {&indices_[first], indices_.size() - first}});
-    lod::Instance instance =
-        lod::make_world_instance(view.eye_world, view.eye_from_world, lod::Module::kTerrain);
-    out.instances.push_back(instance);
-    out.items.push_back({static_cast<uint32_t>(indices_.size() - first), first_index,
-                         static_cast<int32_t>(region_.first_vertex),
-                         static_cast<uint32_t>(out.instances.size() - 1), false});
+    add_items(input, view, out);
 }
 
 }  // namespace terrain

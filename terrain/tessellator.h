@@ -1,8 +1,8 @@
 // Tessellator: the front's leaf triangles as vertices and indices of the geometry pool, in Sierpinski order.
 //
 // Every split diamond owns one vertex; its slot in the pool is its record's index, so a vertex is written once,
-// when its diamond is split, and stays. Indices are walked anew for every view, depth first through the bintree:
-// neighbours in the list share vertices, and subtrees the view cannot see are left out whole.
+// when its diamond is split, and stays. Indices lie in runs (index_runs.h) and stay as well, until a split or a
+// merge touches their run. A view draws the runs it may see, one item each, neighbours in one.
 #pragma once
 
 #include <span>
@@ -13,11 +13,12 @@
 #include "terrain/diamond_bound.h"
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_rank.h"
+#include "terrain/index_runs.h"
 #include "terrain/vertex_glides.h"
 
 namespace terrain {
 
-/// What the walk reads; all of it belongs to the front.
+/// What is drawn; all of it belongs to the front.
 struct TessellationInput {
     const DiamondTable& table;
     const DiamondMesh& mesh;
@@ -28,10 +29,12 @@ struct TessellationInput {
 
 class Tessellator {
   public:
-    /// A diamond has been split: its vertex must be written.
+    /// A vertex must be written: its diamond has been split, or it is shown elsewhere.
     void add_vertex(DiamondIndex index);
+    /// The diamond with this centre has been split or merged.
+    void change(GridPoint centre);
     /// The mesh begins anew: nothing announced so far matters.
-    void forget_vertices();
+    void forget();
 
     /// Sizes that hold `triangles` leaf triangles and `records` vertices.
     static lod::PoolRegion need(uint64_t triangles, uint32_t records);
@@ -41,20 +44,24 @@ class Tessellator {
     /// Call before the first emit of a frame.
     void begin_frame() { is_first_view_ = true; }
 
-    /// Walks the mesh for one view. Allocates nothing once warm.
+    /// Appends what one view sees. Allocates nothing once warm. Cost: with the first view of a frame as what has
+    /// changed since the last, and with every view as the number of runs.
     void emit(const TessellationInput& input, const lod::View& view, lod::DrawList& out);
 
     uint64_t emitted_triangles() const { return emitted_; }
 
   private:
-    bool refresh_page(const TessellationInput& input, uint32_t page);
+    void refresh_page(const TessellationInput& input, uint32_t page, uint64_t bits);
     void write_vertices(const TessellationInput& input, lod::DrawList& out);
+    void write_indices(const TessellationInput& input, lod::DrawList& out);
+    void add_items(const TessellationInput& input, const lod::View& view, lod::DrawList& out);
 
     lod::PoolRegion region_;
     std::vector<lod::Vertex> vertices_;  ///< [record]; the pool's twin
-    std::vector<uint64_t> fresh_;        ///< a bit per record: split since its vertex was last written
+    std::vector<uint64_t> fresh_;        ///< a bit per record: must be written
     bool is_all_stale_ = true;           ///< the region is new: everything must be written
-    std::vector<uint32_t> indices_;      ///< this frame's, all views
+    IndexRuns runs_;
+    std::vector<IndexRange> stretches_;  ///< scratch: of the list, to be drawn
     bool is_first_view_ = true;
     uint64_t emitted_ = 0;
 };

@@ -18,6 +18,8 @@ double cache_misses_a_triangle(const terrain::PoolTwin& pool, const lod::DrawLis
     size_t oldest = 0, misses = 0, corners = 0;
     for (const lod::DrawItem& item : list.items) {
         for (uint32_t i = 0; i < item.index_count; ++i) {
+            const uint32_t* triangle = &pool.indices[item.first_index + i / 3 * 3];
+            if (triangle[0] == triangle[1]) continue;  // fills a gap between others
             const int64_t vertex = int64_t{pool.indices[item.first_index + i]} + item.base_vertex;
             ++corners;
             if (std::find(cache.begin(), cache.end(), vertex) != cache.end()) continue;

@@ -33,16 +33,18 @@ struct PoolTwin {
     }
 };
 
-/// Every triangle the items of one module draw.
+/// Every triangle the items of one module draw; those that name a vertex twice draw nothing.
 inline std::vector<DrawnTriangle> drawn_triangles(const PoolTwin& pool, const lod::DrawList& list,
                                                   lod::Module module) {
     std::vector<DrawnTriangle> out;
     for (const lod::DrawItem& item : list.items) {
         if (list.instances[item.instance].module != static_cast<uint32_t>(module)) continue;
         for (uint32_t corner = 0; corner + 2 < item.index_count; corner += 3) {
+            const uint32_t* named = &pool.indices[item.first_index + corner];
+            if (named[0] == named[1]) continue;
             DrawnTriangle& triangle = out.emplace_back();
             for (size_t i = 0; i < 3; ++i) {
-                const int64_t index = int64_t{pool.indices[item.first_index + corner + i]} + item.base_vertex;
+                const int64_t index = int64_t{named[i]} + item.base_vertex;
                 const lod::Vertex& vertex = pool.vertices[static_cast<size_t>(index)];
                 triangle.world[i] = lod::position_of(vertex);
                 const glm::ivec2 sample = lod::ground_sample(vertex);
