@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "data/csv_cells.h"
 #include "data/motion_columns.h"
 #include "data/time_text.h"
 
@@ -16,56 +17,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDay_s = 86'400.0;
 using Cells = std::vector<std::string>;
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r";
-    const size_t begin = text.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
-/// The next line off the front of `content`.
-std::string_view take_line(std::string_view& content) {
-    const size_t end = std::min(content.find('\n'), content.size());
-    const std::string_view line = content.substr(0, end);
-    content.remove_prefix(std::min(end + 1, content.size()));
-    return line;
-}
-
-Cells split(std::string_view line, char separator) {
-    Cells cells(1);
-    bool is_quoted = false;
-    for (const char letter : line) {
-        if (letter == '"') {
-            is_quoted = !is_quoted;
-        } else if (letter == separator && !is_quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += letter;
-        }
-    }
-    for (std::string& cell : cells)
-        cell = std::string(trimmed(cell));
-    return cells;
-}
-
-char separator_of(std::string_view header) {
-    char best = ',';
-    for (const char candidate : {';', '\t'}) {
-        if (std::count(header.begin(), header.end(), candidate) >
-            std::count(header.begin(), header.end(), best))
-            best = candidate;
-    }
-    return best;
-}
-
-std::optional<double> number_of(std::string_view text) {
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    double number = 0.0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 /// Rows to fixes; keeps what a row needs of the one before it.
 class RowReader {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "data/ac3d_places.h"
 #include "data/mesh_corners.h"
@@ -128,6 +129,7 @@ MeshNode read_node(const MeshReader& reader, const aiNode& source, size_t index,
     MeshNode node;
     node.name = source.mName.C_Str();
     node.parent_from_node = matrix_of(source.mTransformation);
+    if (source.mNumMeshes == 0) return node;
     bool has_uvs = false;
     MeshCorners corners = corners_of(reader, source, has_uvs, stats);
     if (source.mNumMeshes > 0 && index < reader.node_shifts.size())
@@ -199,29 +201,81 @@ uint64_t PolygonMesh::triangle_count() const {
     return count;
 }
 
-lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshStats* stats) {
+namespace {
+
+/// The node and all below it, their geometry read once for all nodes that show the same meshes.
+struct SharedReader {
+    const MeshReader& reader;
+    SharedModel& model;
+    PolygonMeshStats& stats;
+    std::map<std::vector<unsigned>, uint32_t> known;
+    size_t node_count = 0;
+
+    void append(const aiNode& source, const glm::dmat4& model_from_parent) {
+        const size_t index = node_count++;
+        const std::vector<unsigned> meshes(source.mMeshes, source.mMeshes + source.mNumMeshes);
+        const bool has_own_place = index < reader.node_shifts.size();  // of AC3D: nothing is shared there
+        const auto [place, is_new] = known.try_emplace(meshes, static_cast<uint32_t>(model.geometry.size()));
+        uint32_t geometry = place->second;
+        glm::dmat4 parent_from_node = matrix_of(source.mTransformation);
+        if (is_new || has_own_place) {
+            geometry = static_cast<uint32_t>(model.geometry.size());
+            model.geometry.push_back(read_node(reader, source, index, stats));
+            parent_from_node = model.geometry.back().parent_from_node;
+        }
+        const glm::dmat4 model_from_node = model_from_parent * parent_from_node;
+        const bool is_leaf = source.mNumChildren == 0;
+        model.nodes.push_back({source.mName.C_Str(), geometry, is_leaf, model_from_node});
+        for (unsigned i = 0; i < source.mNumChildren; ++i)
+            append(*source.mChildren[i], model_from_node);
+    }
+};
+
+/// Opens and triangulates a model and hands what its nodes are read with to `read`.
+template <typename Read>
+lod::Result<lod::Ok> with_reader(const std::string& path, PolygonMeshStats& met, const Read& read) {
     lod::Result<ModelSource> model = open_model(path);
     if (!model) return model.error();
-    PolygonMeshStats met;
     count_faces(*model->scene, met);
     const lod::Result<lod::Ok> triangulated = triangulate_faces(*model, path);
     if (!triangulated) return triangulated.error();
-
     const FormatTraits traits = traits_of(model->extension);
     MaterialSet materials = read_materials(*model->scene, path, traits.is_linear);
-    met.missing_files = std::move(materials.missing_textures);
+    met.missing_files = materials.missing_textures;
     met.missing_files.insert(met.missing_files.end(), model->missing_libraries.begin(),
                              model->missing_libraries.end());
-    const MeshReader reader{*model->scene, traits, materials, baking_of(materials), model->node_shifts};
+    read(MeshReader{*model->scene, traits, materials, baking_of(materials), model->node_shifts}, materials);
+    return lod::Ok{};
+}
+
+}  // namespace
+
+lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshStats* stats) {
+    PolygonMeshStats met;
     PolygonMesh mesh;
-    if (traits.is_y_up) mesh.file_from_model = glm::transpose(z_up_from_y_up());
-    append_nodes(reader, *model->scene->mRootNode, -1, mesh, met);
+    const auto outcome = with_reader(path, met, [&](const MeshReader& reader, MaterialSet& materials) {
+        if (reader.traits.is_y_up) mesh.file_from_model = glm::transpose(z_up_from_y_up());
+        append_nodes(reader, *reader.scene.mRootNode, -1, mesh, met);
+        mesh.materials = std::move(materials.materials);
+        mesh.textures = std::move(materials.textures);
+    });
+    if (!outcome) return outcome.error();
     if (mesh.triangle_count() == 0)
         return lod::Error{path + ": not a single triangle; expected a polygon model"};
-    mesh.materials = std::move(materials.materials);
-    mesh.textures = std::move(materials.textures);
     if (stats != nullptr) *stats = met;
     return mesh;
+}
+
+lod::Result<SharedModel> read_shared_model(const std::string& path, PolygonMeshStats* stats) {
+    PolygonMeshStats met;
+    SharedModel model;
+    const auto outcome = with_reader(path, met, [&](const MeshReader& reader, MaterialSet&) {
+        const glm::dmat4 model_from_file = reader.traits.is_y_up ? z_up_from_y_up() : glm::dmat4(1.0);
+        SharedReader{reader, model, met, {}}.append(*reader.scene.mRootNode, model_from_file);
+    });
+    if (!outcome) return outcome.error();
+    if (stats != nullptr) *stats = met;
+    return model;
 }
 
 std::vector<glm::dmat4> model_from_nodes(const PolygonMesh& mesh) {

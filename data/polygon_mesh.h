@@ -67,6 +67,22 @@ struct PolygonMeshStats {
 /// that are not finite and on files without a single triangle.
 lod::Result<PolygonMesh> read_polygon_mesh(const std::string& path, PolygonMeshStats* stats = nullptr);
 
+/// A model with its equal nodes' geometry stored once.
+struct SharedModel {
+    struct Node {
+        std::string name;
+        uint32_t geometry = 0;  ///< into `geometry`
+        bool is_leaf = false;   ///< no node below it
+        glm::dmat4 model_from_node{1.0};
+    };
+    std::vector<MeshNode> geometry;  ///< node frame; may be without triangles; names and parents say nothing
+    std::vector<Node> nodes;         ///< parents before children, those without geometry too
+};
+
+/// read_polygon_mesh for scenes of many nodes: nodes that show the same meshes of the file share one geometry.
+/// A file without triangles is no error here. Fails as read_polygon_mesh.
+lod::Result<SharedModel> read_shared_model(const std::string& path, PolygonMeshStats* stats = nullptr);
+
 /// World-of-the-model transform of every node: parents applied.
 std::vector<glm::dmat4> model_from_nodes(const PolygonMesh& mesh);
 
