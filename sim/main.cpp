@@ -31,6 +31,7 @@ struct Arguments {
     sim::MeshBuildArguments mesh_build;
     sim::MeshExtractArguments mesh_extract;
     sim::MeshInspectArguments mesh_inspect;
+    sim::MeshGenerateArguments mesh_generate;
 };
 
 /// A command and what runs it.
@@ -88,6 +89,8 @@ void declare(CLI::App& app, Commands& commands) {
         mesh, "extract", "a static mesh of a size or error");
     commands.add<&A::mesh_inspect, sim::add_mesh_inspect, sim::run_mesh_inspect>(
         mesh, "inspect", "what a progressive mesh holds");
+    commands.add<&A::mesh_generate, sim::add_mesh_generate, sim::run_mesh_generate>(
+        mesh, "generate", "a meter of a stated size, to try");
 }
 
 /// Runs the one command that was parsed.
