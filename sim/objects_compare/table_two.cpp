@@ -50,7 +50,7 @@ render::Atmosphere clear_air() {
 struct Way {
     lod::Front& front;
     double tolerance_px;
-    lod::DrawList list;
+    lod::DrawList list{};
     double ms = 0.0;
     uint64_t triangles = 0, commands = 0;
     double error_px = 0.0;
