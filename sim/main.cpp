@@ -50,7 +50,7 @@ struct Commands {
     void add(CLI::App& group, const char* name, const char* what) {
         CLI::App* app = group.add_subcommand(name, what);
         Declare(*app, arguments.*Member);
-        all.push_back({app, [](const Arguments& arguments) { return Run(arguments.*Member); }});
+        all.push_back({app, [](const Arguments& told) { return Run(told.*Member); }});
     }
 };
 
