@@ -72,31 +72,34 @@ void bound_triangle(const Triangle& triangle, const TriangleTree& to, double sla
     }
 }
 
-bool has_corner_beyond(const Triangle& t, const TriangleTree& to, double limit_m) {
-    return to.nearest(t.a, limit_m).distance_m > limit_m || to.nearest(t.b, limit_m).distance_m > limit_m ||
-           to.nearest(t.c, limit_m).distance_m > limit_m;
+bool is_beyond(const glm::dvec3& point, const TriangleTree& to, double limit_m) {
+    return to.any_within(point, limit_m).distance_m > limit_m;
 }
 
 bool is_within(const Triangle& triangle, const TriangleTree& to, double limit_m, PieceStack& stack,
-               uint32_t& hint) {
-    // Pieces this small that still are not covered touch the limit: refused, though they might be inside.
-    const double smallest_m = limit_m / 64.0;
-    stack.start(triangle, hint);
-    bool has_split = false;
-    while (!stack.is_empty()) {
+               PieceSearch& search) {
+    if (to.is_empty()) return false;
+    const double smallest_m = search.smallest_share * limit_m;
+    stack.start(triangle, search.hint);
+    uint32_t left = search.most_pieces;
+    for (bool has_split = false; !stack.is_empty(); has_split = true) {
         const Piece piece = stack.pop();
         const Triangle turned = turn_longest_first(piece.corners);
-        const TriangleHit hit = to.cover(turned, limit_m, piece.hint);
+        const TriangleHit hit = to.cover_within(turned, limit_m, piece.hint);
         if (hit.distance_m <= limit_m) {
-            hint = hit.triangle;
+            search.hint = hit.triangle;
             continue;
         }
-        if (!has_split && has_corner_beyond(turned, to, limit_m)) return false;
-        has_split = true;
-        if (squared_distance(turned.a, turned.b) <= smallest_m * smallest_m || stack.is_full()) return false;
-        const glm::dvec3 middle = 0.5 * (turned.a + turned.b);
-        if (to.nearest(middle, limit_m).distance_m > limit_m) return false;
-        stack.push_halves(turned, middle, hit.triangle);
+        if (--left == 0 || stack.is_full()) return false;
+        // The inside first: edges often lie on neighbours of what is missing.
+        const glm::dvec3 inside = (turned.a + turned.b + turned.c) / 3.0;
+        const TriangleHit near = to.any_within(inside, limit_m);
+        if (near.distance_m > limit_m) return false;
+        if (!has_split && (is_beyond(turned.a, to, limit_m) || is_beyond(turned.b, to, limit_m) ||
+                           is_beyond(turned.c, to, limit_m)))
+            return false;
+        if (squared_distance(turned.a, turned.b) <= smallest_m * smallest_m) return false;
+        stack.push_halves(turned, 0.5 * (turned.a + turned.b), near.triangle);
     }
     return true;
 }
@@ -148,11 +151,16 @@ DistanceBounds two_sided_distance(const Soup& a, const Soup& b, double slack_m, 
     return {std::max(there.lower_m, back.lower_m), std::max(there.upper_m, back.upper_m)};
 }
 
-void find_beyond(const Soup& from, const TriangleTree& to, double limit_m, std::vector<uint32_t>& out) {
-    uint32_t hint = kNoHint;
+bool is_within(const Triangle& triangle, const TriangleTree& to, double limit_m, PieceSearch& search) {
+    PieceStack stack;
+    return is_within(triangle, to, limit_m, stack, search);
+}
+
+void find_beyond(const Soup& from, const TriangleTree& to, double limit_m, std::vector<uint32_t>& out,
+                 PieceSearch search) {
     PieceStack stack;
     for (uint32_t i = 0; i < from.triangles.size(); ++i) {
-        if (to.is_empty() || !is_within(from.triangle(i), to, limit_m, stack, hint)) out.push_back(i);
+        if (!is_within(from.triangle(i), to, limit_m, stack, search)) out.push_back(i);
     }
 }
 

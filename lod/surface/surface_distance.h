@@ -30,9 +30,22 @@ DistanceBounds one_sided_distance(const Soup& from, const TriangleTree& to, doub
 /// The Hausdorff distance: the larger of both directions. Infinity when exactly one is empty.
 DistanceBounds two_sided_distance(const Soup& a, const Soup& b, double slack_m, unsigned threads);
 
-/// Appends those triangles of `from`, in their order, that are not proved to lie within `limit_m` of `to`. A triangle
-/// that touches the limit from below may be among them, one beyond it always is.
+/// How long is_within may search, and where it begins.
+struct PieceSearch {
+    uint32_t most_pieces = 0xffffffffu;  ///< > 0; a triangle that needs more is refused
+    double smallest_share = 1.0 / 64;    ///< of the limit; smaller pieces touch it, and are refused
+    uint32_t hint =
+        0xffffffffu;  ///< in and out: a triangle of the target that may be near; saves most of the search
+                      ///< for a neighbour of the last
+};
+
+/// Whether a triangle is proved to lie within `limit_m` of `to`. One that touches the limit from below may be refused,
+/// one beyond it always is.
+bool is_within(const Triangle& triangle, const TriangleTree& to, double limit_m, PieceSearch& search);
+
+/// Appends those triangles of `from`, in their order, for which is_within is false.
 /// Cost: about 1 us a triangle where the surfaces are alike.
-void find_beyond(const Soup& from, const TriangleTree& to, double limit_m, std::vector<uint32_t>& out);
+void find_beyond(const Soup& from, const TriangleTree& to, double limit_m, std::vector<uint32_t>& out,
+                 PieceSearch search = {});
 
 }  // namespace lod

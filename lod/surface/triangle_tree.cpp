@@ -11,12 +11,21 @@ namespace lod {
 
 namespace {
 
+constexpr uint32_t kNothing = 0xffffffffu;
 constexpr uint32_t kLeafTriangles = 4;
 constexpr size_t kMaxDepth = 64;  ///< halving 2^32 triangles needs 32; two entries a level at the most
 
-double squared_distance_to_box(const glm::dvec3& point, const glm::dvec3& low, const glm::dvec3& high) {
-    const glm::dvec3 outside = glm::max(glm::max(low - point, point - high), glm::dvec3(0.0));
-    return glm::dot(outside, outside);
+inline double squared_distance_to_box(const glm::dvec3& point, const glm::dvec3& low,
+                                      const glm::dvec3& high) {
+    const double x = std::max(std::max(low.x - point.x, point.x - high.x), 0.0);
+    const double y = std::max(std::max(low.y - point.y, point.y - high.y), 0.0);
+    const double z = std::max(std::max(low.z - point.z, point.z - high.z), 0.0);
+    return x * x + y * y + z * z;
+}
+
+double longest_edge_m(const Triangle& t) {
+    return std::sqrt(
+        std::max({squared_distance(t.a, t.b), squared_distance(t.b, t.c), squared_distance(t.c, t.a)}));
 }
 
 /// What is still to be visited of a tree, nearest on top.
@@ -51,7 +60,9 @@ void descend(const Nodes& nodes, const BoxDistance& box_distance2, double& best2
             }
             continue;
         }
-        const double left2 = box_distance2(nodes[id + 1]), right2 = box_distance2(nodes[node.right]);
+        const double hidden2 = std::numeric_limits<double>::infinity();
+        const double left2 = nodes[id + 1].is_shown ? box_distance2(nodes[id + 1]) : hidden2;
+        const double right2 = nodes[node.right].is_shown ? box_distance2(nodes[node.right]) : hidden2;
         if (left2 <= right2) {
             stack.push(node.right, right2);
             stack.push(id + 1, left2);
@@ -84,6 +95,7 @@ struct TriangleTree::Builder {
             node.high = glm::max(node.high, glm::max(t.a, glm::max(t.b, t.c)));
             low = glm::min(low, middles[tree.original_[i]]);
             high = glm::max(high, middles[tree.original_[i]]);
+            node.longest_m = std::max(node.longest_m, longest_edge_m(t));
         }
         tree.nodes_.push_back(node);
         if (end - begin <= kLeafTriangles) return;
@@ -115,16 +127,33 @@ TriangleTree::TriangleTree(const Soup& soup) {
     builder.split(0, count);
     triangles_.resize(count);
     place_.resize(count);
+    is_shown_.assign(count, 1);
     for (uint32_t i = 0; i < count; ++i) {
         triangles_[i] = soup.triangle(original_[i]);
         place_[original_[i]] = i;
     }
 }
 
+void TriangleTree::hide_all() {
+    std::fill(is_shown_.begin(), is_shown_.end(), uint8_t{0});
+    for (Node& node : nodes_)
+        node.is_shown = false;
+}
+
+void TriangleTree::show(uint32_t triangle) {
+    const uint32_t place = place_[triangle];
+    is_shown_[place] = 1;
+    for (uint32_t id = 0;;) {
+        nodes_[id].is_shown = true;
+        if (nodes_[id].right == 0) return;
+        id = place < nodes_[nodes_[id].right].begin ? id + 1 : nodes_[id].right;
+    }
+}
+
 TriangleHit TriangleTree::nearest(const glm::dvec3& point, double limit_m) const {
     if (is_empty()) return {};
     double best2 = limit_m * limit_m;
-    uint32_t found = 0xffffffffu;
+    uint32_t found = kNothing;
     descend(
         nodes_, [&](const Node& node) { return squared_distance_to_box(point, node.low, node.high); }, best2,
         [&](uint32_t i) {
@@ -135,16 +164,47 @@ TriangleHit TriangleTree::nearest(const glm::dvec3& point, double limit_m) const
             }
             return best2 == 0.0;
         });
-    if (found == 0xffffffffu) return {};
+    if (found == kNothing) return {};
+    return {original_[found], std::sqrt(best2)};
+}
+
+TriangleHit TriangleTree::any_within(const glm::dvec3& point, double limit_m) const {
+    if (is_empty()) return {};
+    const double limit2 = limit_m * limit_m;
+    double best2 = std::nextafter(limit2, std::numeric_limits<double>::infinity());
+    uint32_t found = kNothing;
+    descend(
+        nodes_, [&](const Node& node) { return squared_distance_to_box(point, node.low, node.high); }, best2,
+        [&](uint32_t i) {
+            if (!is_shown_[i]) return false;
+            const double distance2 = squared_distance(point, triangles_[i]);
+            if (distance2 > limit2) return false;
+            best2 = distance2;
+            found = i;
+            return true;
+        });
+    if (found == kNothing) return {};
     return {original_[found], std::sqrt(best2)};
 }
 
 TriangleHit TriangleTree::cover(const Triangle& corners, double enough_m, uint32_t hint) const {
+    return cover_below(corners, enough_m * enough_m, std::numeric_limits<double>::infinity(), hint);
+}
+
+TriangleHit TriangleTree::cover_within(const Triangle& corners, double limit_m, uint32_t hint) const {
+    const double limit2 = limit_m * limit_m;
+    const double above2 = std::nextafter(limit2, std::numeric_limits<double>::infinity());
+    return cover_below(corners, limit2, above2, hint);
+}
+
+/// The best with a square below `below2`; stops at one that is at most `enough2`.
+TriangleHit TriangleTree::cover_below(const Triangle& corners, double enough2, double below2,
+                                      uint32_t hint) const {
     if (is_empty()) return {};
-    const double enough2 = enough_m * enough_m;
-    double best2 = std::numeric_limits<double>::infinity();
-    uint32_t found = 0;
+    double best2 = below2;
+    uint32_t found = kNothing;
     const auto visit = [&](uint32_t i) {
+        if (!is_shown_[i]) return false;
         double farthest2 = 0.0;
         for (const glm::dvec3* corner : {&corners.a, &corners.b, &corners.c}) {
             farthest2 = std::max(farthest2, squared_distance(*corner, triangles_[i]));
@@ -156,13 +216,21 @@ TriangleHit TriangleTree::cover(const Triangle& corners, double enough_m, uint32
     };
     const bool is_done = hint < place_.size() && visit(place_[hint]);
     if (!is_done) {
+        // A triangle is no longer than the one that spans it, but for the limit at either end.
+        const double longest_m = longest_edge_m(corners) * (1.0 - 1e-12);
         const auto box_distance2 = [&](const Node& node) {
-            return std::max({squared_distance_to_box(corners.a, node.low, node.high),
-                             squared_distance_to_box(corners.b, node.low, node.high),
-                             squared_distance_to_box(corners.c, node.low, node.high)});
+            const double over_m = 0.5 * (longest_m - node.longest_m);
+            if (over_m > 0.0 && over_m * over_m >= best2) return std::numeric_limits<double>::infinity();
+            double farthest2 = squared_distance_to_box(corners.a, node.low, node.high);
+            for (const glm::dvec3* corner : {&corners.b, &corners.c}) {
+                if (farthest2 >= best2) return farthest2;
+                farthest2 = std::max(farthest2, squared_distance_to_box(*corner, node.low, node.high));
+            }
+            return farthest2;
         };
         descend(nodes_, box_distance2, best2, visit);
     }
+    if (found == kNothing) return {};
     return {original_[found], std::sqrt(best2)};
 }
 

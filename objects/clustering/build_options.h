@@ -1,0 +1,41 @@
+// What a build of a cluster tree is asked for: how many levels, and what each of them may merge and lose.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace objects {
+
+struct BuildOptions {
+    uint32_t levels = 0;     ///< L; 0: as many doublings as lie between the objects' and the scene's size
+    bool is_linear = false;  ///< w(l) = (l/L) W as in the source; else w doubles from level to level up to W
+    double error_share = 0.01;  ///< epsilon(l) = error_share * w(l)
+    double gamma_share = 0.25;  ///< gamma(L) = gamma_share; gamma(l) is in proportion to w(l)
+    uint32_t most_children = 16;
+    double visibility_slack =
+        1.0 / 64.0;                  ///< visibilities of many steps may be off by so much, counted in gamma
+    double least_rest_share = 0.01;  ///< of T: a mover that rests so long is a leaf of its own meanwhile
+    unsigned threads = 1;
+};
+
+/// What clusters of one level may be.
+struct LevelThresholds {
+    double size_m = 0.0;   ///< w(l)
+    double error_m = 0.0;  ///< epsilon(l)
+    double gamma = 0.0;    ///< gamma(l) / T
+};
+
+/// @param level   1 … levels; beyond levels what is left is joined: errors go on growing, size and time do not matter
+/// @param size_m  W, of the whole scene
+inline LevelThresholds thresholds_at(const BuildOptions& options, uint32_t level, double size_m) {
+    const double last = static_cast<double>(options.levels), now = static_cast<double>(level);
+    const double share = options.is_linear ? now / last : std::exp2(now - last);
+    LevelThresholds at{share * size_m, options.error_share * share * size_m, options.gamma_share * share};
+    if (level <= options.levels) return at;
+    at.size_m = 1e30;
+    at.gamma = 1e30;
+    return at;
+}
+
+}  // namespace objects

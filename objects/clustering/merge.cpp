@@ -1,0 +1,233 @@
+#include "objects/clustering/merge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lod/base/check.h"
+#include "objects/clustering/for_each_item.h"
+#include "objects/reduction/reduce.h"
+
+namespace objects {
+
+namespace {
+
+constexpr double kLeastShare = 0.05;      ///< of a level's error: with less left, geometry is joined as it is
+constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
+constexpr double kMostSizes = 2.0;        ///< of w(l), beyond which nothing alone is reduced
+
+/// A cluster on its way: made by any thread, put into the draft in order.
+struct Merged {
+    DraftCluster cluster;
+    StepFunction visibility;
+    FaceSoup soup;
+    DrawnGeometry drawn;
+};
+
+StepFunction mean_of(const Draft& draft, std::span<const uint32_t> children) {
+    std::vector<WeightedFunction> parts;
+    for (uint32_t child : children)
+        parts.push_back({&draft.functions[draft.clusters[child].visibility], draft.clusters[child].weight_m});
+    return weighted_mean(parts);
+}
+
+/// gamma that a child asks of a cluster with this visibility.
+double gamma_with(const Draft& draft, uint32_t child, const StepFunction& visibility) {
+    const DraftCluster& cluster = draft.clusters[child];
+    return cluster.gamma + distance(visibility, draft.functions[cluster.visibility], draft.scene.end_s);
+}
+
+/// Visibility and gamma of a group; children that are too far in time leave it, the farthest first.
+void settle_time(const Draft& draft, double most_gamma, std::vector<uint32_t>& children, Merged& out,
+                 std::vector<uint32_t>& released) {
+    for (;;) {
+        out.visibility = mean_of(draft, children);
+        size_t worst = 0;
+        double gamma = 0.0;
+        for (size_t i = 0; i < children.size(); ++i) {
+            const double one = gamma_with(draft, children[i], out.visibility);
+            if (one > gamma) {
+                gamma = one;
+                worst = i;
+            }
+        }
+        out.cluster.gamma = gamma;
+        if (gamma <= most_gamma || children.size() == 1) return;
+        released.push_back(children[worst]);
+        children.erase(children.begin() + static_cast<std::ptrdiff_t>(worst));
+    }
+}
+
+void settle_box(const Draft& draft, std::span<const uint32_t> children, DraftCluster& out) {
+    out.box_min = draft.clusters[children[0]].box_min;
+    out.box_max = draft.clusters[children[0]].box_max;
+    out.weight_m = 0.0;
+    for (uint32_t child : children) {
+        out.box_min = glm::min(out.box_min, draft.clusters[child].box_min);
+        out.box_max = glm::max(out.box_max, draft.clusters[child].box_max);
+        out.weight_m += draft.clusters[child].weight_m;
+    }
+}
+
+/// Geometry: what stands for the children at this level, joined and reduced around the box's middle.
+void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uint32_t level, Merged& out) {
+    const glm::dvec3 middle = 0.5 * (out.cluster.box_min + out.cluster.box_max);
+    FaceSoup joined;
+    double error_m = 0.0, child_error_m = 0.0;
+    for (uint32_t child : children) {
+        const DraftCluster& cluster = draft.clusters[child];
+        const double more_m = append_cluster_soup(draft, cluster, level, -middle, joined);
+        error_m = std::max(error_m, cluster.error_m + more_m);
+        child_error_m = std::max(child_error_m, cluster.error_m);
+    }
+    const double limit_m = draft.at(level).error_m - error_m;
+    FaceSoup reduced;
+    if (limit_m > kLeastShare * draft.at(level).error_m) reduced = reduce_within(joined, limit_m);
+    const bool is_reduced = !reduced.faces.empty() && reduced.faces.size() < joined.faces.size();
+    append_soup(is_reduced ? reduced : joined, glm::dmat3(1.0), middle, out.soup);
+    out.cluster.error_m = std::max(child_error_m, error_m + (is_reduced ? limit_m : 0.0));
+    for (const auto& face : out.soup.faces) {
+        for (uint32_t corner : face) {
+            out.cluster.box_min = glm::min(out.cluster.box_min, out.soup.points[corner]);
+            out.cluster.box_max = glm::max(out.cluster.box_max, out.soup.points[corner]);
+        }
+    }
+    out.drawn = draw_soup(out.soup);
+}
+
+/// Puts a finished cluster into the draft.
+uint32_t add_cluster(Draft& draft, Merged& merged) {
+    DraftCluster& cluster = merged.cluster;
+    cluster.visibility = static_cast<uint32_t>(draft.functions.size());
+    draft.functions.push_back(std::move(merged.visibility));
+    cluster.geometry = draft.pool.add(merged.drawn);
+    cluster.soup = static_cast<uint32_t>(draft.soups.size());
+    draft.soups.push_back(std::move(merged.soup));
+    for (uint32_t child : cluster.children) {
+        if (draft.clusters[child].soup != kNone) draft.soups[draft.clusters[child].soup] = {};
+    }
+    draft.clusters.push_back(std::move(cluster));
+    return static_cast<uint32_t>(draft.clusters.size()) - 1;
+}
+
+/// Meshes that at least two leaves of these groups share: worth reducing once by themselves.
+std::vector<uint32_t> shared_meshes(const Draft& draft, const std::vector<std::vector<uint32_t>>& groups) {
+    std::vector<uint32_t> used, shared;
+    for (const std::vector<uint32_t>& group : groups) {
+        for (uint32_t child : group) {
+            if (draft.clusters[child].mesh != kNone) used.push_back(draft.clusters[child].mesh);
+        }
+    }
+    std::sort(used.begin(), used.end());
+    for (size_t i = 1; i < used.size(); ++i) {
+        if (used[i] == used[i - 1] && (shared.empty() || shared.back() != used[i])) shared.push_back(used[i]);
+    }
+    return shared;
+}
+
+/// What is that much larger than a level's clusters is coarse enough for it, and costly to reduce to its error.
+bool is_too_large(const Draft& draft, const DraftCluster& cluster, uint32_t level) {
+    return cluster.size_m() > kMostSizes * draft.at(level).size_m;
+}
+
+}  // namespace
+
+std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<uint32_t>>& groups,
+                                   uint32_t level, const HierarchyFrame& frame,
+                                   std::vector<uint32_t>& released) {
+    make_rungs(draft, shared_meshes(draft, groups), level);
+    std::vector<Merged> merged(groups.size());
+    std::vector<std::vector<uint32_t>> let_go(groups.size());
+    for_each_item(groups.size(), draft.options.threads, [&](size_t i) {
+        std::vector<uint32_t> children = groups[i];
+        settle_time(draft, draft.at(level).gamma, children, merged[i], let_go[i]);
+        DraftCluster& cluster = merged[i].cluster;
+        cluster.level = level;
+        cluster.motion = frame.motion;
+        cluster.motion_class = frame.motion_class;
+        cluster.children = children;
+        if (children.size() < 2) return;
+        settle_box(draft, children, cluster);
+        settle_geometry(draft, children, level, merged[i]);
+    });
+    std::vector<uint32_t> made;
+    for (size_t i = 0; i < groups.size(); ++i) {
+        released.insert(released.end(), let_go[i].begin(), let_go[i].end());
+        if (merged[i].cluster.children.size() < 2)
+            released.push_back(merged[i].cluster.children[0]);
+        else
+            made.push_back(add_cluster(draft, merged[i]));
+    }
+    return made;
+}
+
+std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone, uint32_t level,
+                                   const HierarchyFrame& frame) {
+    std::vector<uint32_t> tops(alone.begin(), alone.end());
+    std::vector<uint32_t> meshes;
+    for (uint32_t id : alone) {
+        const DraftCluster& cluster = draft.clusters[id];
+        if (cluster.mesh != kNone && draft.meshes[cluster.mesh].soup.faces.size() >= kFewestFacesAlone &&
+            !is_too_large(draft, cluster, level))
+            meshes.push_back(cluster.mesh);
+    }
+    std::sort(meshes.begin(), meshes.end());
+    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
+    make_rungs(draft, meshes, level);
+    std::vector<Merged> merged(alone.size());
+    for_each_item(alone.size(), draft.options.threads, [&](size_t i) {
+        const DraftCluster& child = draft.clusters[alone[i]];
+        if (child.mesh != kNone || draft.soups[child.soup].faces.size() < kFewestFacesAlone) return;
+        if (is_too_large(draft, child, level)) return;
+        merged[i].cluster = child;
+        settle_geometry(draft, {&alone[i], 1}, level, merged[i]);
+    });
+    for (size_t i = 0; i < alone.size(); ++i) {
+        const DraftCluster child = draft.clusters[alone[i]];
+        DraftCluster parent = child;
+        if (child.mesh != kNone) {
+            const MeshRung* rung = rung_at(draft.meshes[child.mesh], level);
+            if (rung == nullptr || rung->level != level) continue;
+            parent.rung = level;
+            parent.geometry = rung->geometry;
+            parent.error_m = rung->error_m;
+            const glm::dvec3 margin(rung->error_m);
+            parent.box_min -= margin;
+            parent.box_max += margin;
+        } else {
+            const size_t before = draft.soups[child.soup].faces.size();
+            if (merged[i].soup.faces.empty() || 2 * merged[i].soup.faces.size() > before) continue;
+            parent = merged[i].cluster;
+            parent.geometry = draft.pool.add(merged[i].drawn);
+            parent.soup = static_cast<uint32_t>(draft.soups.size());
+            draft.soups.push_back(std::move(merged[i].soup));
+            draft.soups[child.soup] = {};
+        }
+        parent.children = {alone[i]};
+        parent.object = kNoObject;
+        parent.level = level;
+        parent.motion = child.mesh != kNone ? child.motion : frame.motion;
+        tops[i] = static_cast<uint32_t>(draft.clusters.size());
+        draft.clusters.push_back(std::move(parent));
+    }
+    return tops;
+}
+
+uint32_t hold(Draft& draft, const std::vector<uint32_t>& children, uint32_t level,
+              data::MotionClass motion_class) {
+    CHECK(!children.empty());
+    DraftCluster cluster;
+    settle_box(draft, children, cluster);
+    StepFunction visibility = mean_of(draft, children);
+    for (uint32_t child : children)
+        cluster.gamma = std::max(cluster.gamma, gamma_with(draft, child, visibility));
+    cluster.visibility = static_cast<uint32_t>(draft.functions.size());
+    draft.functions.push_back(std::move(visibility));
+    cluster.error_m = double(kNeverEnough_m);
+    cluster.level = level;
+    cluster.motion_class = motion_class;
+    cluster.children = children;
+    draft.clusters.push_back(std::move(cluster));
+    return static_cast<uint32_t>(draft.clusters.size()) - 1;
+}
+
+}  // namespace objects

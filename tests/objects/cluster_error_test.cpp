@@ -1,0 +1,118 @@
+// Proved errors against dense samples measured by CGAL, which shares nothing with the proof.
+#include <CGAL/Simple_cartesian.h>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "objects/reduction/reduce.h"
+#include "tests/objects/small_scenes.h"
+#include "tests/objects/tree_surfaces.h"
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using objects::FaceSoup;
+
+Kernel::Point_3 point(const glm::dvec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// Largest distance of samples of `from`, no farther than `spacing_m` from any of its points, to `to`. Faces without
+/// area are no surface to CGAL.
+double sampled_m(const FaceSoup& from, const FaceSoup& to, double spacing_m) {
+    Triangles triangles;
+    for (const auto& [a, b, c] : to.faces) {
+        const Kernel::Triangle_3 t(point(to.points[a]), point(to.points[b]), point(to.points[c]));
+        if (t.squared_area() > 1e-18) triangles.push_back(t);
+    }
+    Tree tree(triangles.begin(), triangles.end());
+    tree.accelerate_distance_queries();
+    double largest2 = 0.0;
+    for (size_t face = 0; face < from.faces.size(); ++face) {
+        const lod::Triangle t = from.view().triangle(face);
+        const double longest =
+            std::max({glm::length(t.b - t.a), glm::length(t.c - t.b), glm::length(t.a - t.c)});
+        const int steps = 1 + static_cast<int>(longest / spacing_m);
+        for (int i = 0; i <= steps; ++i) {
+            for (int k = 0; i + k <= steps; ++k) {
+                const glm::dvec3 at =
+                    t.a + (double(i) / steps) * (t.b - t.a) + (double(k) / steps) * (t.c - t.a);
+                largest2 = std::max(largest2, tree.squared_distance(point(at)));
+            }
+        }
+    }
+    return std::sqrt(largest2);
+}
+
+double sampled_both_ways_m(const FaceSoup& a, const FaceSoup& b, double spacing_m) {
+    return std::max(sampled_m(a, b, spacing_m), sampled_m(b, a, spacing_m));
+}
+
+TEST(ReduceWithin, AFrameBuildingComesDownWithinItsLimits) {
+    const FaceSoup building = objects_test::frame_building(3, 2);
+    const std::pair<double, size_t> limits[] = {{0.1, 2}, {0.4, 12}};
+    for (const auto& [limit_m, at_least] : limits) {
+        const FaceSoup reduced = objects::reduce_within(building, limit_m);
+        EXPECT_LE(sampled_both_ways_m(building, reduced, 0.4), limit_m + 1e-9);
+        EXPECT_LE(reduced.faces.size() * at_least, building.faces.size()) << limit_m;
+    }
+}
+
+TEST(ReduceWithin, ABallKeepsItsShape) {
+    const FaceSoup ball = objects_test::ball(1.0, 20, 30, {1, 2, 3, 255});
+    for (double limit_m : {0.02, 0.1}) {
+        const FaceSoup reduced = objects::reduce_within(ball, limit_m);
+        EXPECT_LE(sampled_both_ways_m(ball, reduced, 0.05), limit_m + 1e-9);
+        EXPECT_LT(reduced.faces.size(), ball.faces.size() / 2);
+        for (const glm::u8vec4& colour : reduced.colours)
+            EXPECT_EQ(colour, glm::u8vec4(1, 2, 3, 255));
+    }
+}
+
+TEST(ReduceWithin, HopelessSoupsStayWhole) {
+    FaceSoup point;
+    point.points = {{1, 1, 1}};
+    point.faces = {{0, 0, 0}};
+    point.colours = {{1, 1, 1, 255}};
+    EXPECT_EQ(objects::reduce_within(point, 0.5).faces.size(), 1u);
+    EXPECT_TRUE(objects::reduce_within({}, 0.5).faces.empty());
+    const FaceSoup box = objects_test::box({10, 10, 10}, {1, 1, 1, 255});
+    EXPECT_LE(sampled_both_ways_m(box, objects::reduce_within(box, 0.01), 0.2), 0.01);
+}
+
+TEST(ClusterError, HoldsForEveryClusterOfSomeScenes) {
+    size_t judged = 0, reduced = 0;
+    double closest = 0.0;
+    for (uint64_t seed : {11u}) {
+        const data::TimedScene scene = objects_test::small_scene(
+            {.objects = 100, .seed = seed, .moving_share = 0.05, .side_m = seed == 11 ? 20.0 : 60.0});
+        const objects::ClusterTree tree = objects_test::build(scene);
+        for (objects::ClusterId id = 0; id < tree.clusters.size(); ++id) {
+            const objects::Cluster& c = tree.clusters[id];
+            if (c.child_count == 0 || c.geometry == objects::kNoGeometry) continue;
+            std::vector<objects::ClusterId> leaves;
+            objects_test::gather_leaves(tree, id, leaves);
+            const FaceSoup source = objects_test::source_surface(scene, tree, leaves, tree.moves(id));
+            const FaceSoup drawn = objects_test::drawn_surface(tree, c);
+            const double measured_m = sampled_both_ways_m(source, drawn, 0.4);
+            EXPECT_LE(measured_m, double(c.error_m) + 1e-9) << "seed " << seed << " cluster " << id;
+            closest = std::max(closest, c.error_m > 0.0f ? measured_m / double(c.error_m) : 0.0);
+            ++judged;
+            reduced += drawn.faces.size() < source.faces.size();
+        }
+    }
+    EXPECT_GT(judged, 30u);
+    EXPECT_GT(reduced, judged / 2);
+    EXPECT_GT(closest, 0.3);  // bounds are no excuse for being loose
+    std::printf("%zu clusters, %zu of them reduced; largest measured share of a bound %.2f\n", judged,
+                reduced, closest);
+}
+
+}  // namespace
