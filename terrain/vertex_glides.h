@@ -74,7 +74,8 @@ class VertexGlides {
     glm::vec3 shown_base_m(const VertexGlide& glide) const;
 
     double duration_s_;
-    std::array<std::vector<VertexGlide>, kMostLevels> levels_;  ///< [level], by index: an edge's ends are coarser
+    std::array<std::vector<VertexGlide>, kMostLevels>
+        levels_;  ///< [level], by index: an edge's ends are coarser
     size_t count_ = 0;
     float farthest_m_ = 0.0f;
 };
