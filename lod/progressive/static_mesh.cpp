@@ -20,8 +20,11 @@ class Coarsening {
     uint64_t triangles() const { return left_; }
 
     /// Does every collapse within the tolerance that was not done yet, until no more than `enough` triangles are left.
-    void run(double tolerance_m, uint64_t enough) {
+    /// @param may_overshoot  also when fewer would be left
+    void run(double tolerance_m, uint64_t enough, bool may_overshoot) {
         for (uint32_t k = 0; k < h_.collapse_count() && left_ > enough; ++k) {
+            const uint64_t removed = h_.removed_begin[k + 1] - h_.removed_begin[k];
+            if (!may_overshoot && left_ < enough + removed) continue;
             if (!is_done_[k] && double(h_.error_m[h_.leaf_count + k]) <= tolerance_m && is_legal(k))
                 collapse(k);
         }
@@ -77,7 +80,7 @@ uint64_t triangles_at(std::span<const ScaledHierarchy> hierarchies, double toler
     uint64_t sum = 0;
     for (const auto& [hierarchy, scale] : hierarchies) {
         Coarsening coarsening(*hierarchy);
-        coarsening.run(tolerance_m / scale, 0);
+        coarsening.run(tolerance_m / scale, 0, true);
         sum += coarsening.triangles();
     }
     return sum;
@@ -100,7 +103,7 @@ std::vector<double> errors_of(std::span<const ScaledHierarchy> hierarchies) {
 
 StaticMesh mesh_at_tolerance(const VertexHierarchy& hierarchy, double tolerance_m) {
     Coarsening coarsening(hierarchy);
-    coarsening.run(tolerance_m, 0);
+    coarsening.run(tolerance_m, 0, true);
     return coarsening.mesh();
 }
 
@@ -114,17 +117,20 @@ std::vector<StaticMesh> meshes_of_size(std::span<const ScaledHierarchy> hierarch
     uint64_t sum = 0;
     for (const auto& [hierarchy, scale] : hierarchies) {
         states.emplace_back(*hierarchy);
-        if (least != errors.begin()) states.back().run(*(least - 1) / scale, 0);
+        if (least != errors.begin()) states.back().run(*(least - 1) / scale, 0, true);
         sum += states.back().triangles();
     }
-    std::vector<StaticMesh> meshes;
-    for (size_t i = 0; i < states.size(); ++i) {
-        const uint64_t others = sum - states[i].triangles();
-        if (sum > triangles)
-            states[i].run(*least / hierarchies[i].scale, triangles > others ? triangles - others : 0);
-        sum = others + states[i].triangles();
-        meshes.push_back(states[i].mesh());
+    for (const bool may_overshoot : {false, true}) {
+        for (size_t i = 0; i < states.size() && sum > triangles; ++i) {
+            const uint64_t others = sum - states[i].triangles();
+            const uint64_t enough = triangles > others ? triangles - others : 0;
+            states[i].run(*least / hierarchies[i].scale, enough, may_overshoot);
+            sum = others + states[i].triangles();
+        }
     }
+    std::vector<StaticMesh> meshes;
+    for (const Coarsening& state : states)
+        meshes.push_back(state.mesh());
     return meshes;
 }
 

@@ -50,14 +50,22 @@ void SurfaceImage::turn_vertex(uint32_t vertex, bool is_ccw) {
     }
 }
 
-/// Remembers the ends of an edge at which it goes round p at once.
+/// Remembers the ends of an edge from which it goes more than half round p: only with such an edge can a turn pay.
 void SurfaceImage::suspect(const FullEdge& edge) {
-    if (edge.word.empty()) return;
-    const auto is_at_p = [this](CornerId letter) {
-        return mesh_.node(letter) == p_ || mesh_.head(letter) == p_;
+    const size_t half = fan_.corners.size() / 2, count = edge.word.size();
+    if (count <= half) return;
+    const auto is_long = [&](bool is_tail) {
+        const auto letter = [&](size_t i) { return edge.word[is_tail ? i : count - 1 - i]; };
+        const bool is_out = mesh_.node(letter(0)) == p_;
+        if (!is_out && mesh_.head(letter(0)) != p_) return false;
+        size_t run = 1;
+        while (run <= half && run < count &&
+               (is_out ? mesh_.node(letter(run)) : mesh_.head(letter(run))) == p_)
+            ++run;
+        return run > half;
     };
-    if (member_of_[edge.u] != kNone && is_at_p(edge.word.front())) suspects_.push_back(edge.u);
-    if (member_of_[edge.v] != kNone && is_at_p(edge.word.back())) suspects_.push_back(edge.v);
+    if (member_of_[edge.u] != kNone && is_long(true)) suspects_.push_back(edge.u);
+    if (member_of_[edge.v] != kNone && is_long(false)) suspects_.push_back(edge.v);
 }
 
 /// Vertices that went round p the long way, as their edges' words tell, go back.
