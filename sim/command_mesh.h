@@ -11,7 +11,7 @@ namespace sim {
 
 struct MeshBuildArguments {
     std::string source, out, metric = "quadric";
-    double weld_m = 0.0, max_turn_deg = 60.0, min_quality = 0.02;
+    double weld_m = 0.0, max_turn_deg = 60.0, min_quality = 0.005;
     unsigned threads = 1;
 };
 struct MeshExtractArguments {

@@ -17,7 +17,7 @@ void prove_errors(VertexHierarchy& h) {
     SurfaceImage image(h);
     for (uint32_t k = 0; k < h.collapse_count(); ++k) {
         const auto [a, b] = h.children[k];
-        const double bound = image.collapse(k);
+        const double bound = image.collapse(k, double(std::max(h.error_m[a], h.error_m[b])));
         float error_m = static_cast<float>(bound);
         if (double(error_m) < bound) error_m = std::nextafter(error_m, std::numeric_limits<float>::max());
         h.error_m[h.leaf_count + k] = std::max({h.error_m[a], h.error_m[b], bound > noise ? error_m : 0.0f});

@@ -10,7 +10,7 @@ using Corner3 = std::array<glm::vec3, 3>;
 
 struct SafetyLimits {
     double max_turn_cos = 0.5;
-    double min_quality = 0.02;
+    double min_quality = 0.005;
 };
 
 /// Whether the normal turns by no more than the limit, never faces away from where the full mesh's triangle faces, and

@@ -6,8 +6,9 @@
 
 namespace lod {
 
-double SurfaceImage::collapse(uint32_t k) {
+double SurfaceImage::collapse(uint32_t k, double enough_m) {
     p_ = h_.leaf_count + k;
+    enough_m_ = std::max(enough_m, noise_m_);
     bound2_ = 0.0;
     choose_centre(k);
     gather_star(k);
@@ -230,7 +231,7 @@ void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
             at = is_up ? (at + 1) % count : (at + count - 1) % count;
         } while (least2 > 0.0 && attempt(at));
     }
-    for (size_t sector = 0; sector < count && least2 > std::max(bound2_, noise_m_ * noise_m_); ++sector)
+    for (size_t sector = 0; sector < count && least2 > std::max(bound2_, enough_m_ * enough_m_); ++sector)
         attempt(sector);
     const size_t ccw = (member.to + count - member.from) % count;
     member.is_ccw = fan_.is_closed ? 2 * ccw <= count : member.to > member.from;

@@ -41,8 +41,10 @@ class SurfaceImage {
     /// The image of the full mesh on itself.
     explicit SurfaceImage(const VertexHierarchy& hierarchy);
 
-    /// Replays collapse k; they come in order. @returns the bound for the triangles it makes, m
-    double collapse(uint32_t k);
+    /// Replays collapse k; they come in order.
+    /// @param enough_m  no search goes on below this: the node's error is no less anyway
+    /// @returns         the bound for the triangles it makes, m
+    double collapse(uint32_t k, double enough_m = 0.0);
 
     /// Whether all full triangles can be drawn together as claimed. For tests; O(n).
     bool is_sound() const;
@@ -155,8 +157,9 @@ class SurfaceImage {
         CornerId beyond_c = 0, beyond_o = 0;              ///< their mates
     };
     std::vector<Removed> removed_;
-    double noise_m_ = 0.0;  // below this nothing is worth a search
-    double bound2_ = 0.0;   // largest squared distance of a vertex
+    double noise_m_ = 0.0;   // of the coordinates
+    double enough_m_ = 0.0;  // below this nothing is worth a search
+    double bound2_ = 0.0;    // largest squared distance of a vertex
 };
 
 }  // namespace lod

@@ -127,7 +127,7 @@ void SurfaceImage::find_owner() {
     owned_[owner_[p_]].push_back(p_);
     double apart = owner_distance(p_, owner_[p_]);
     std::vector<uint32_t> steps;
-    for (bool is_moving = true; is_moving && apart > noise_m_;) {
+    for (bool is_moving = true; is_moving && apart > enough_m_;) {
         is_moving = find_way(owner_[p_], apart);
         steps.clear();
         for (size_t i = way_.size() - 1; i > 0; i = way_[i].before)
