@@ -29,23 +29,16 @@ void append_mesh(const TimedMesh& mesh, TimedMesh& to) {
         to.triangles.push_back({first + a, first + b, first + c});
 }
 
-/// Ids that were used, so that none is used twice.
-class UniqueIds {
-  public:
-    std::string take(const std::string& name, size_t number) {
-        std::string id(trimmed(name));
-        if (id.empty()) id = "node-" + std::to_string(number);
-        const std::string first = id;
-        for (int copy = 2; !used_.insert(id).second; ++copy)
-            id = first + "#" + std::to_string(copy);
-        return id;
-    }
-
-  private:
-    std::set<std::string> used_;
-};
-
 }  // namespace
+
+std::string UniqueIds::take(const std::string& name, size_t number) {
+    std::string id(trimmed(name));
+    if (id.empty()) id = "node-" + std::to_string(number);
+    const std::string first = id;
+    for (int copy = 2; !used_.insert(id).second; ++copy)
+        id = first + "#" + std::to_string(copy);
+    return id;
+}
 
 SplitTransform split_transform(const glm::dmat4& model_from_node) {
     constexpr double kRounding = 2e-6;  // of float32 in a chain of nodes

@@ -1,6 +1,7 @@
 // SourceScene: what readers of models, footprints and cities hand over before a schedule gives it time.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,16 @@ struct SourceScene {
     double end_s = 0.0;  ///< 0: the source does not say
     glm::dvec3 origin_site{0.0};
     bool is_on_earth = false;
+};
+
+/// Ids, none given out twice: of equal names the second becomes "name#2".
+class UniqueIds {
+  public:
+    /// @param name    blanks at its ends do not count; without any other letter it becomes "node-NUMBER"
+    std::string take(const std::string& name, size_t number);
+
+  private:
+    std::set<std::string> used_;
 };
 
 /// A rigid placement and what is left of a transform: model_from_node = rigid * rest. `rest` is the identity, exactly,

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "data/city_json.h"
+#include "data/fbx_schedule.h"
 #include "data/polygon_mesh.h"
 #include "data/schedule_csv.h"
 #include "data/source_scene.h"
@@ -30,22 +32,34 @@ std::string schedule_path_of(const std::string& path, const TimedSceneOptions& o
 lod::Result<SourceScene> read_source(const std::string& path, const std::string& extension,
                                      const Schedule& schedule) {
     if (extension == ".csv") return SourceScene{};
+    if (extension == ".json") return read_city_json(path);
     const auto model = read_shared_model(path);
     if (!model) return model.error();
-    return objects_of_model(*model, schedule);
+    SourceScene source = objects_of_model(*model, schedule);
+    if (extension == ".fbx") {
+        if (const auto added = add_fbx_schedule(path, source); !added) return added.error();
+    }
+    return source;
 }
 
 }  // namespace
 
 lod::Result<TimedScene> read_timed_scene(const std::string& path, const TimedSceneOptions& options) {
+    return give_schedule(path, options, [&](const Schedule& schedule) {
+        return read_source(path, extension_of(path), schedule);
+    });
+}
+
+lod::Result<TimedScene> give_schedule(const std::string& path, const TimedSceneOptions& options,
+                                      const std::function<lod::Result<SourceScene>(const Schedule&)>& read) {
     const std::string schedule_path = schedule_path_of(path, options);
     Schedule schedule;
     if (!schedule_path.empty()) {
-        auto read = read_schedule(schedule_path);
-        if (!read) return read.error();
-        schedule = std::move(*read);
+        auto from_file = read_schedule(schedule_path);
+        if (!from_file) return from_file.error();
+        schedule = std::move(*from_file);
     }
-    auto source = read_source(path, extension_of(path), schedule);
+    auto source = read(schedule);
     if (!source) return source.error();
     auto scene = schedule_scene(std::move(*source), schedule, schedule_path.empty() ? path : schedule_path);
     if (!scene) return scene.error();

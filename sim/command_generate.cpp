@@ -7,7 +7,7 @@
 
 #include "data/scene_time.h"
 #include "data/scenes/construction_site.h"
-#include "data/timed_scene_file.h"
+#include "objects/building_scene.h"
 #include "sim/timed_scene_writer.h"
 #include "sim/whole_file.h"
 
@@ -20,7 +20,7 @@ const std::map<std::string, data::SceneFamily> kFamilies = {{"highrise", data::S
                                                             {"scattered", data::SceneFamily::kScattered}};
 
 constexpr const char* kOutHelp =
-    "NAME.glb: the scene, with its schedule in NAME.csv; without extension a folder for both";
+    "NAME.glb: the scene, with its schedule in NAME.csv; NAME.fbx: both in one; without extension a folder";
 
 void print_summary(const data::TimedScene& scene, const std::vector<std::string>& files) {
     const data::ClassCounts counts = data::count_classes(scene);
@@ -57,7 +57,7 @@ void add_generate(CLI::App& app, GenerateArguments& arguments) {
     app.add_option("--seed", options.seed, "equal seeds give equal scenes")
         ->capture_default_str()
         ->type_name("N");
-    app.add_option("--out", arguments.out, kOutHelp)->required()->type_name("F.glb|DIR");
+    app.add_option("--out", arguments.out, kOutHelp)->required()->type_name("F.glb|F.fbx|DIR");
     const auto add = [&](const char* name, auto& value, const auto& range, const char* help) {
         app.add_option(name, value, help)->check(range)->capture_default_str()->group("Families");
     };
@@ -90,12 +90,12 @@ void add_convert(CLI::App& app, ConvertArguments& arguments) {
     app.add_option("--schedule", arguments.schedule,
                    "when objects appear, disappear and move; default: NAME.csv beside the scene")
         ->type_name("F.csv");
-    app.add_option("--out", arguments.out, kOutHelp)->required()->type_name("F.glb|DIR");
+    app.add_option("--out", arguments.out, kOutHelp)->required()->type_name("F.glb|F.fbx|DIR");
 }
 
 lod::Result<lod::Ok> run_convert(const ConvertArguments& arguments) {
     return write_made(arguments.out, [&] {
-        return data::read_timed_scene(arguments.source, {.schedule = arguments.schedule});
+        return objects::read_timed_scene(arguments.source, {.schedule = arguments.schedule});
     });
 }
 

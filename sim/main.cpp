@@ -78,9 +78,9 @@ void declare(CLI::App& app, Commands& commands) {
 
     CLI::App& objects = add_group(app, "objects", "work on scenes whose objects come, go and move");
     commands.add<&A::objects_generate, sim::add_generate, sim::run_generate>(
-        objects, "generate", "a scene by seed, as GLB and schedule");
+        objects, "generate", "a scene by seed, as GLB with a schedule, or FBX");
     commands.add<&A::objects_convert, sim::add_convert, sim::run_convert>(
-        objects, "convert", "a model or city with its schedule, as GLB and schedule");
+        objects, "convert", "a model or city with its schedule, as GLB with a schedule, or FBX");
 
     CLI::App& mesh = add_group(app, "mesh", "progressive meshes of instruments");
     commands.add<&A::mesh_build, sim::add_mesh_build, sim::run_mesh_build>(

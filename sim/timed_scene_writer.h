@@ -1,4 +1,4 @@
-// Writes a timed scene as files that others read: GLB with a schedule beside it.
+// Writes a timed scene as files that others read: GLB with a schedule beside it, or FBX.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace sim {
 
-/// The files that write_timed_scene will make for `out`: NAME.glb with NAME.csv; a name without extension is a folder
-/// that gets scene.glb and scene.csv. Fails on other extensions.
+/// The files that write_timed_scene will make for `out`: NAME.glb with NAME.csv; NAME.fbx alone; a name without
+/// extension is a folder that gets scene.glb and scene.csv. Fails on other extensions.
 lod::Result<std::vector<std::string>> timed_scene_files(const std::string& out);
 
 /// Writes the scene to timed_scene_files(out); makes the folder where `out` is one.

@@ -10,6 +10,7 @@
 #include "data/scenes/site_fleet.h"
 #include "data/scenes/site_groundworks.h"
 #include "data/scenes/site_meshes.h"
+#include "data/scenes/site_old_quarter.h"
 #include "data/scenes/site_plan.h"
 #include "data/scenes/site_surroundings.h"
 #include "data/scenes/site_tower.h"
@@ -56,7 +57,7 @@ void add_heaps(const Remainder& remainder, Heap heap, const Colour& colour, Scen
 
 /// Fills the classes up: mounds of earth beyond the fleet, heaps of gravel that come and go at the yards, people, and
 /// what the dumpers carry.
-void add_crew_and_heaps(const std::vector<std::vector<KeyFrame>>& beds, SceneBuilder& builder) {
+void add_crew_and_heaps(const std::vector<Bed>& beds, SceneBuilder& builder) {
     const auto around = [&](double low_m, double high_m) {
         const double radius_m = builder.rng.between(low_m, high_m),
                      angle_rad = builder.rng.between(0.0, 2.0 * std::numbers::pi);
@@ -75,8 +76,9 @@ void add_crew_and_heaps(const std::vector<std::vector<KeyFrame>>& beds, SceneBui
     const uint64_t movers = count_classes(builder.scene).objects[static_cast<size_t>(MotionClass::kDynamic)];
     add_crew(static_cast<int>(kDynamic.objects - movers - beds.size()), builder);
     const Remainder loads = remainder_of(kDynamic, MotionClass::kDynamic, builder);
-    add_heaps(loads, {1.15, 1.0}, kSand, builder,
-              [&](uint64_t number, uint32_t mesh) { add_mover("load", mesh, beds[number], {}, builder); });
+    add_heaps(loads, {1.15, 1.0}, kSand, builder, [&](uint64_t number, uint32_t mesh) {
+        add_mover("load", mesh, beds[number].keys, beds[number].presence, builder);
+    });
 }
 
 }  // namespace
@@ -87,6 +89,7 @@ TimedScene generate_construction_site(uint64_t seed) {
     SceneBuilder builder(seed);
     builder.scene.end_s = kEndS;
     add_surroundings(builder);
+    add_old_quarter(builder);
     add_groundworks(builder);
     add_masts(builder);
     add_tower(builder);

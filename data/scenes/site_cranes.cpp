@@ -11,11 +11,11 @@ namespace data::site {
 namespace {
 
 constexpr double kQuarterRad = std::numbers::pi / 2.0;
-constexpr double kRunUpM = 30.0;   // how far a jib is above the highest floor, at least
-constexpr double kRiggedS = 90.0;  // when the jibs are put up
-constexpr double kFirstLiftS = 150.0, kLiftS = 31.0;
-constexpr int kLifts = 90, kPartsPerRack = 12;
-constexpr int kJibSections = 9, kRopes = 27;
+constexpr double kRunUpM = 30.0;    // how far a jib is above the highest floor, at least
+constexpr double kRiggedS = 375.0;  // when the jibs are put up
+constexpr double kFirstLiftS = 400.0, kLiftS = 31.0;
+constexpr int kLifts = 66, kPartsPerRack = 12;
+constexpr int kJibSections = 9, kRopes = 23;
 constexpr double kRopeM = 12.0;
 constexpr double kHungM = 5.0;                          // from the hook to the foot of what hangs on it
 constexpr double kMaxTurnRad = std::numbers::pi / 6.0;  // between two key frames
@@ -174,9 +174,7 @@ CraneMeshes make_crane_meshes(SceneBuilder& builder) {
 void add_rack(const Lift& lift, const std::vector<Moment>& way, const Placement& frame,
               const CraneMeshes& meshes, SceneBuilder& builder) {
     const uint64_t kind = builder.rng.below(5) % 3;  // panels and beams twice as often as mats
-    const bool is_there = builder.rng.unit() < 0.6;
-    Presence presence{Presence::kNever, way.back().time_s};
-    if (!is_there) presence.appears_s = builder.rng.between(0.0, std::max(20.0, lift.begins_s - 40.0));
+    const Presence presence{lift.begins_s - builder.rng.between(40.0, 220.0), way.back().time_s};
     for (int part = 0; part < kPartsPerRack; ++part) {
         Placement in_rack;
         if (kind == 0) in_rack.position = {-1.5 + 1.5 * (part % 3), 0.6 * (part / 3) - 0.9, 0.3 - kHungM};
@@ -229,7 +227,7 @@ glm::dvec3 mast_foot(int crane) {
 
 double mast_section_appears_s(int crane, int section) {
     const double top_m = kPitFloorM + kSectionM * (section + 1);
-    return std::max(30.0 + 4.0 * section + 2.0 * crane, time_of_height(top_m - kRunUpM));
+    return std::max(330.0 + 4.0 * section + 2.0 * crane, time_of_height(top_m - kRunUpM));
 }
 
 double mast_section_disappears_s(int section) {

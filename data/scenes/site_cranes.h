@@ -6,7 +6,7 @@
 namespace data::site {
 
 constexpr int kCranes = 4;
-constexpr int kMastSections = 54;
+constexpr int kMastSections = 46;
 constexpr double kSectionM = 6.0;
 
 /// Where a crane's mast begins, on the pit's floor.

@@ -1,6 +1,5 @@
 #include "data/scenes/site_crew.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,11 +30,14 @@ struct Walker {
     glm::dvec3 at{0.0};
     double time_s = 0.0;
 
-    void wait_until(double until_s) {
-        if (until_s <= time_s) return;
-        time_s = until_s;
+    void arrive(double when_s) {
+        time_s = when_s;
+        keys.back().time_s = when_s;
+    }
+    void wait(double for_s) {
+        time_s += for_s;
         keys.push_back(keys.back());
-        keys.back().time_s = until_s;
+        keys.back().time_s = time_s;
     }
     void go(const glm::dvec3& to, double speed_mps) {
         const glm::dvec3 way = to - at;
@@ -68,34 +70,32 @@ glm::dvec3 place_in_storey(int storey, SceneBuilder& builder) {
 void work_in_tower(Walker& walker, SceneBuilder& builder) {
     int storey = static_cast<int>(builder.rng.below(kStoreys - 2));
     const double behind =
-        builder.rng.between(1.5, 24.0);  // storeys behind the highest: from formwork to furniture
-    const auto starts_s = [&](int at_storey) {
-        return std::min(storey_time(at_storey + behind), kEndS - 220.0);
-    };
+        builder.rng.between(1.5, 22.0);  // storeys behind the highest: from formwork to furniture
+    const double starts_s = storey_time(storey + behind);
     const double side = walker.at.x < 0.0 ? -1.0 : 1.0;
     const glm::dvec3 hoist(side * 27.5, -side * -17.0, 0.0);
-    walker.wait_until(std::max(10.0, starts_s(storey) - 160.0));
+    walker.arrive(starts_s - 120.0);
     walker.go({side * 88.0, walker.at.y < 0.0 ? -44.0 : 44.0, 0.0}, kWalkMps * 2.0);
     walker.go(hoist, kWalkMps * 2.0);
     for (int stay = 0; stay < 3 && storey < kStoreys; ++stay) {
-        walker.wait_until(starts_s(storey));
         walker.go({hoist.x, hoist.y, storey * kStoreyM}, kRideMps);
         for (int spot = 0; spot < 2; ++spot) {
             walker.go(place_in_storey(storey, builder), kWalkMps);
-            walker.wait_until(std::min(walker.time_s + builder.rng.between(15.0, 60.0), kEndS - 60.0));
+            walker.wait(builder.rng.between(15.0, 60.0));
         }
         walker.go({hoist.x, hoist.y, storey * kStoreyM}, kWalkMps);
         storey += 1 + static_cast<int>(builder.rng.below(6));
     }
 }
 
-/// Works on the ground: a few places between the plaza and the ring road.
+/// Works on the ground: a few places around the plaza.
 void work_outside(Walker& walker, SceneBuilder& builder) {
+    walker.arrive(builder.rng.between(-200.0, kEndS - 120.0));
     for (int spot = 0; spot < 5; ++spot) {
-        walker.wait_until(walker.time_s + builder.rng.between(20.0, 600.0));
         const double radius_m = builder.rng.between(46.0, 86.0), angle_rad = builder.rng.between(0.0, 6.28);
         const glm::dvec3 to(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 0.0);
-        if (glm::length(to - walker.at) < 150.0) walker.go(to, kWalkMps);
+        if (glm::length(to - walker.at) < 110.0) walker.go(to, kWalkMps);
+        walker.wait(builder.rng.between(10.0, 90.0));
     }
     walker.go(walker.at + glm::dvec3(0.6, 0.4, 0.0), kWalkMps);
 }
@@ -116,7 +116,9 @@ void add_crew(int count, SceneBuilder& builder) {
         } else {
             work_outside(walker, builder);
         }
-        add_mover("worker", meshes[builder.rng.below(meshes.size())], walker.keys, {}, builder);
+        Presence presence{Presence::kNever, walker.time_s + 10.0};
+        if (walker.keys[0].time_s > 1.0) presence.appears_s = walker.keys[0].time_s - 1.0;
+        add_mover("worker", meshes[builder.rng.below(meshes.size())], walker.keys, presence, builder);
     }
 }
 

@@ -1,4 +1,4 @@
-// The people of the construction site: they come from their camp, walk to the tower, ride up and work storey by storey.
+// The people of the construction site: they come from their camp, walk to the tower, ride up, work storey by storey and leave.
 #pragma once
 
 #include "data/scenes/scene_builder.h"

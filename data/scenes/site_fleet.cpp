@@ -118,49 +118,58 @@ ParkingSpot parking_spot(int number) {
     return {{{}, side * kQuarterRad}, {kSpotM * (col - (kPerRow - 1) / 2.0), -kFirstRowM - kRowM * row}};
 }
 
-/// Round trips from a spot: out by the aisle, along the ring road to another side, there and back.
-std::vector<KeyFrame> make_trips(int number, SceneBuilder& builder) {
+/// A visit to the site: from a parking spot by the aisle and the ring road to a place of work, and back.
+struct Visit {
+    std::vector<KeyFrame> keys;
+    Presence presence;
+};
+
+std::vector<glm::dvec2> make_way(int number, SceneBuilder& builder) {
     const ParkingSpot spot = parking_spot(number);
     const auto in_site = [&](double x, double y) {
         return glm::dvec2((spot.frame * Placement{{x, y, 0.0}}).position);
     };
-    const double aisle_y = spot.place.y + kAisleM, out_x = number % 8 < kSides ? -86.0 : 86.0;
-    const double lane = kRoadM + builder.rng.between(-3.0, 3.0);
-    std::vector<KeyFrame> keys = {key_at(0.0, spot.frame * Placement{{spot.place, 0.0}})};
-    double time_s = builder.rng.between(5.0, 500.0);
-    while (time_s < kEndS - 260.0) {
-        const bool is_far = builder.rng.below(2) == 0;  // to the next side, or work in front of its own
-        std::vector<glm::dvec2> out = {in_site(spot.place.x, spot.place.y), in_site(spot.place.x, aisle_y),
-                                       in_site(out_x, aisle_y), in_site(out_x, -lane)};
-        const double work_x =
-            out_x < 0.0 ? builder.rng.between(-60.0, 60.0) : builder.rng.between(-60.0, 60.0);
-        if (is_far) {
-            const double far_x = out_x < 0.0 ? -lane : lane;
-            out.back() = in_site(far_x, aisle_y);
-            out[2] = in_site(far_x, aisle_y);
-            out.pop_back();
-            out.push_back(in_site(far_x, work_x));
-        } else {
-            out.push_back(in_site(work_x, -lane));
-        }
-        keys.push_back(key_at(time_s, spot.frame * Placement{{spot.place, 0.0}}));
-        time_s = append_drive(out, {time_s + 0.1, 9.0}, keys) + builder.rng.between(20.0, 70.0);
-        keys.push_back(keys.back());
-        keys.back().time_s = time_s;
-        std::vector<glm::dvec2> back(out.rbegin(), out.rend());
-        back.push_back(in_site(spot.place.x, spot.place.y - 4.5));  // past the spot, then forward onto it
-        back.erase(back.end() - 2);
-        time_s = append_drive(back, {time_s + 3.0, 9.0}, keys);
-        time_s += 6.0;
-        keys.push_back(key_at(time_s, spot.frame * Placement{{spot.place, 0.0}}));
-        time_s += builder.rng.between(150.0, 900.0);
+    const double lane = kRoadM + builder.rng.between(-3.0, 3.0), work = builder.rng.between(-60.0, 60.0);
+    const double aisle_y = spot.place.y + kAisleM, side = number % 8 < kSides ? -1.0 : 1.0;
+    std::vector<glm::dvec2> way = {in_site(spot.place.x, spot.place.y), in_site(spot.place.x, aisle_y)};
+    if (builder.rng.below(2) == 0) {  // to the next side of the site, or to its own
+        way.push_back(in_site(side * lane, aisle_y));
+        way.push_back(in_site(side * lane, work));
+    } else {
+        way.push_back(in_site(side * 86.0, aisle_y));
+        way.push_back(in_site(side * 86.0, -lane));
+        way.push_back(in_site(work, -lane));
     }
-    return keys;
+    return way;
 }
 
-void add_vehicle(const Parts& parts, const std::vector<KeyFrame>& keys, SceneBuilder& builder) {
+Visit make_visit(int number, SceneBuilder& builder) {
+    const ParkingSpot spot = parking_spot(number);
+    const KeyFrame parked = key_at(0.0, spot.frame * Placement{{spot.place, 0.0}});
+    const std::vector<glm::dvec2> out = make_way(number, builder);
+    std::vector<glm::dvec2> back(out.rbegin(), out.rend());
+    back.back() = glm::dvec2((spot.frame * Placement{{spot.place.x, spot.place.y - 4.5, 0.0}}).position);
+
+    Visit visit;
+    const double comes_s = builder.rng.between(-300.0, kEndS - 420.0);
+    double time_s = std::max(comes_s, 0.0) + builder.rng.between(20.0, 180.0);
+    const auto stand = [&](const KeyFrame& pose) {
+        visit.keys.push_back(pose);
+        visit.keys.back().time_s = time_s;
+    };
+    stand(parked);
+    time_s = append_drive(out, {time_s + 0.1, 9.0}, visit.keys) + builder.rng.between(20.0, 60.0);
+    stand(visit.keys.back());
+    time_s = append_drive(back, {time_s + 3.0, 9.0}, visit.keys) + 6.0;
+    stand(parked);
+    if (comes_s > 0.0) visit.presence.appears_s = comes_s;
+    visit.presence.disappears_s = time_s + builder.rng.between(20.0, 180.0);
+    return visit;
+}
+
+void add_vehicle(const Parts& parts, const Visit& visit, SceneBuilder& builder) {
     for (const Part& part : parts)
-        add_mover(part.kind, part.mesh, carried(keys, part.in_vehicle), {}, builder);
+        add_mover(part.kind, part.mesh, carried(visit.keys, part.in_vehicle), visit.presence, builder);
 }
 
 /// An excavator's parts in a chain: each turns in the one before.
@@ -199,12 +208,13 @@ glm::dquat about_x(double angle_rad) {
 }
 
 /// Digs, turns, empties, turns back, and moves on a little after every load.
-void add_excavator(const ExcavatorMeshes& meshes, const Placement& place, const Presence& presence,
+void add_excavator(const ExcavatorMeshes& meshes, const Placement& place, double begins_s,
                    SceneBuilder& builder) {
+    constexpr int kLoads = 7;
     std::array<std::vector<KeyFrame>, 6> keys;
-    double time_s = builder.rng.between(0.0, 60.0);
+    double time_s = begins_s;
     const double turn_rad = builder.rng.between(1.2, 2.6);
-    for (int load = 0; load < 20; ++load) {
+    for (int load = 0; load < kLoads; ++load) {
         const Placement stand = place * Placement{{0.0, 0.25 * load, 0.0}};
         for (int phase = 0; phase < 4; ++phase) {  // down, up, round, emptied
             const double slew_rad = phase < 2 ? 0.0 : turn_rad;
@@ -224,8 +234,8 @@ void add_excavator(const ExcavatorMeshes& meshes, const Placement& place, const 
             keys[5].push_back({time_s, wrist, stick * about_x(phase == 3 ? -0.9 : 0.3)});
             time_s += phase == 3 ? 6.0 : 4.0;
         }
-        time_s += presence.disappears_s != Presence::kNever ? 0.0 : builder.rng.between(20.0, 260.0);
     }
+    const Presence presence{begins_s - 10.0, time_s + 10.0};
     const uint32_t chain[] = {meshes.track, meshes.track, meshes.house,
                               meshes.boom,  meshes.stick, meshes.bucket};
     for (size_t part = 0; part < keys.size(); ++part)
@@ -240,24 +250,24 @@ void add_excavators(SceneBuilder& builder) {
         const double angle_rad = 2.4 * i;
         const glm::dvec3 at(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad),
                             is_in_pit ? kPitFloorM : 0.0);
-        Presence presence;
-        if (is_in_pit) presence.disappears_s = 135.0;
-        add_excavator(meshes, {at, builder.rng.between(0.0, 6.28)}, presence, builder);
+        const double begins_s =
+            is_in_pit ? kClearedS + builder.rng.between(70.0, 90.0) : builder.rng.between(20.0, 3300.0);
+        add_excavator(meshes, {at, builder.rng.between(0.0, 6.28)}, begins_s, builder);
     }
 }
 
 }  // namespace
 
-std::vector<std::vector<KeyFrame>> add_fleet(SceneBuilder& builder) {
+std::vector<Bed> add_fleet(SceneBuilder& builder) {
     const uint32_t wheel = wheel_mesh(builder);
     const Parts mixer = make_mixer(wheel, builder), dumper = make_dumper(wheel, builder),
                 flatbed = make_flatbed(wheel, builder);
-    std::vector<std::vector<KeyFrame>> beds;
+    std::vector<Bed> beds;
     for (int number = 0; number < kMixers + kDumpers + kFlatbeds; ++number) {
-        const std::vector<KeyFrame> keys = make_trips(number, builder);
+        const Visit visit = make_visit(number, builder);
         const bool is_dumper = number >= kMixers && number < kMixers + kDumpers;
-        add_vehicle(is_dumper ? dumper : number < kMixers ? mixer : flatbed, keys, builder);
-        if (is_dumper) beds.push_back(carried(keys, {{0.0, -3.0, 1.1}}));
+        add_vehicle(is_dumper ? dumper : number < kMixers ? mixer : flatbed, visit, builder);
+        if (is_dumper) beds.push_back({carried(visit.keys, {{0.0, -3.0, 1.1}}), visit.presence});
     }
     add_excavators(builder);
     return beds;

@@ -5,8 +5,13 @@
 
 namespace data::site {
 
-/// All vehicles but the heaps on the dumpers.
-/// @returns the key frames of the dumpers' beds, in which the heaps lie
-std::vector<std::vector<KeyFrame>> add_fleet(SceneBuilder& builder);
+/// Where a dumper's load lies, and while it is there.
+struct Bed {
+    std::vector<KeyFrame> keys;
+    Presence presence;
+};
+
+/// All vehicles but the loads of the dumpers. Each comes to its parking place, does one round and leaves.
+std::vector<Bed> add_fleet(SceneBuilder& builder);
 
 }  // namespace data::site

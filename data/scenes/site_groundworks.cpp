@@ -10,7 +10,7 @@ namespace data::site {
 namespace {
 
 constexpr double kQuarterRad = std::numbers::pi / 2.0;
-constexpr double kPodiumS = 3120.0;                                      // begun when the last mast is down
+constexpr double kPodiumS = 2890.0;                                      // begun when the last mast is down
 constexpr double kPodiumStorey = (kPodiumS - kFirstStoreyS) / kStoreyS;  // as a storey's time
 
 /// Work on the ground that is done once, from one time to another, in the order of a curve.
@@ -19,9 +19,13 @@ struct Job {
     double begins_s, ends_s;
 };
 
-void add_job(const Job& job, std::vector<Spot> spots, SceneBuilder& builder) {
+std::vector<Spot> ordered(std::vector<Spot> spots) {
     order_along_curve(spots);
-    for (const Spot& spot : spots)
+    return spots;
+}
+
+void add_job(const Job& job, const std::vector<Spot>& spots, SceneBuilder& builder) {
+    for (const Spot& spot : ordered(spots))
         add_object(job.kind, spot.mesh, spot.in_storey,
                    {job.begins_s + (job.ends_s - job.begins_s) * spot.order}, builder);
 }
@@ -86,7 +90,7 @@ void add_scaffold(SceneBuilder& builder) {
     for (int level = 0; level < 2; ++level) {
         const auto add = [&](double x, double y, double turn_rad) {
             const double appears_s = kPodiumS + 30.0 * level + builder.rng.between(0.0, 30.0);
-            const Presence presence{appears_s, 3440.0 + builder.rng.between(0.0, 60.0)};
+            const Presence presence{appears_s, 3240.0 + builder.rng.between(0.0, 60.0)};
             add_object("scaffold", mesh, {{x, y, 4.2 * level}, turn_rad}, presence, builder);
         };
         for (int i = 0; i < 12; ++i) {
@@ -105,11 +109,17 @@ void add_scaffold(SceneBuilder& builder) {
 }  // namespace
 
 void add_groundworks(SceneBuilder& builder) {
-    TimedMesh pile, raft, lining;
+    TimedMesh pile, raft, lining, earth;
     append_tube({{0, 0, 0}, {0, 0, 2.5}, 0.5, 12}, kConcrete, pile);
     append_box({-5.24, -5.24, 0.0}, {5.24, 5.24, 1.9}, kPaleConcrete, raft);
     append_box({-1.3, -0.3, 0.0}, {1.3, 0.0, -kPitFloorM}, kRust, lining);
     append_box({-1.3, -0.5, -kPitFloorM - 1.5}, {1.3, -0.3, -kPitFloorM - 1.0}, kSteel, lining);
+    append_box({-3.5, -3.5, kPitFloorM + 0.05}, {3.5, 3.5, 0.0}, kSand, earth);
+    const uint32_t earth_mesh = add_mesh(std::move(earth), builder);
+    for (const Spot& block : ordered(grid(earth_mesh, 12, kHalfPitM, 0.0))) {  // dug out
+        const Presence presence{Presence::kNever, kClearedS + 20.0 + 90.0 * block.order};
+        add_object("earth", block.mesh, block.in_storey, presence, builder);
+    }
     std::vector<Spot> walls;
     const uint32_t wall = add_mesh(std::move(lining), builder);
     for (int side = 0; side < 4; ++side) {
@@ -118,14 +128,14 @@ void add_groundworks(SceneBuilder& builder) {
             walls.push_back({Placement{{}, side * kQuarterRad} * along, wall});
         }
     }
-    add_job({"lining", 4.0, 60.0}, std::move(walls), builder);
-    add_job({"pile", 20.0, 150.0}, grid(add_mesh(std::move(pile), builder), 18, kHalfPitM - 2.0, kPitFloorM),
+    add_job({"lining", kClearedS, kClearedS + 80.0}, std::move(walls), builder);
+    add_job({"pile", 240.0, 310.0}, grid(add_mesh(std::move(pile), builder), 18, kHalfPitM - 2.0, kPitFloorM),
             builder);
-    add_job({"raft", 140.0, 215.0}, grid(add_mesh(std::move(raft), builder), 8, kHalfPitM - 0.05, kPitFloorM),
+    add_job({"raft", 300.0, 335.0}, grid(add_mesh(std::move(raft), builder), 8, kHalfPitM - 0.05, kPitFloorM),
             builder);
     std::vector<Spot> plaza = grid(add_mesh(make_slab(), builder), 12, kHalfPitM, 0.0);
     std::erase_if(plaza, is_under_tower);
-    add_job({"slab", 300.0, 620.0}, std::move(plaza), builder);
+    add_job({"slab", 420.0, 720.0}, std::move(plaza), builder);
 }
 
 void add_masts(SceneBuilder& builder) {
@@ -140,7 +150,7 @@ void add_masts(SceneBuilder& builder) {
     }
     for (const double x : {-26.0, 26.0}) {  // beside the lowest storeys, tied to the higher ones
         for (int i = 0; i < kStoreys; ++i) {
-            const Presence presence{storey_time(i + 2.0), 3260.0 + 2.0 * (kStoreys - i)};
+            const Presence presence{storey_time(i + 2.0), 3150.0 + 2.0 * (kStoreys - i)};
             add_object("hoistmast", hoist, {{x, x < 0.0 ? 19.0 : -19.0, kStoreyM * i}}, presence, builder);
         }
     }
@@ -171,7 +181,7 @@ void add_trees(SceneBuilder& builder) {
         const Placement in_side{{-x * (52.0 + 8.0 * row), -52.0 - 8.0 * row, 0.0},
                                 builder.rng.between(0.0, 6.28)};
         const Placement turned = Placement{{}, (side + 1) * kQuarterRad} * in_side;
-        add_object("tree", tree, turned, {3300.0 + 270.0 * (i + 1.0) / kTrees}, builder);
+        add_object("tree", tree, turned, {3050.0 + 450.0 * (i + 1.0) / kTrees}, builder);
     }
 }
 

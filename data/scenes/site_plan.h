@@ -1,6 +1,6 @@
 // The plan of the construction site: where things stand and when they are built, shared by all its trades.
 //
-//            y                 tower   42 m square on 7 m bays, each storey 1.29 degrees further round
+//            y                 tower   42 m square on 7 m bays, each storey 1.58 degrees further round
 //      +-----------+           pit     84 m square around it, roofed over once the basement stands
 //      |  pit      |           cranes  four masts at 34 m from the middle, one a side
 //      |  +-----+  |           yards   beyond the pit's edges, within reach of the cranes
@@ -17,7 +17,7 @@ namespace data::site {
 
 constexpr double kEndS = 3600.0;  // two years in an hour
 
-constexpr int kStoreys = 70, kCellars = 2;  // above and below ground
+constexpr int kStoreys = 57, kCellars = 2;  // above and below ground
 constexpr double kStoreyM = 4.0;
 constexpr double kTwistRad = std::numbers::pi / 2.0 / kStoreys;  // a quarter turn from ground to roof
 constexpr double kBayM = 7.0;
@@ -28,9 +28,10 @@ constexpr double kPitFloorM = -10.0;
 constexpr double kMastM = 34.0;  // a crane's mast from the middle
 constexpr double kRoadM = 92.0;  // the middle of the ring road from the middle
 
-constexpr double kFirstStoreyS = 290.0;  // when the first storey is begun
-constexpr double kStoreyS = 33.0;        // from one storey to the next
-constexpr double kDismantleS = 2960.0;   // when the cranes come down
+constexpr double kClearedS = 150.0;      // when the old quarter is gone
+constexpr double kFirstStoreyS = 400.0;  // when the first storey is begun
+constexpr double kStoreyS = 36.0;        // from one storey to the next
+constexpr double kDismantleS = 2760.0;   // when the cranes come down
 
 /// When storey `storey`, fractions allowed, is begun.
 constexpr double storey_time(double storey) {
