@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct HeightGrid {
     /// [height * width], 1: was void and is filled, so it counts as measured; empty when there is none
     std::vector<uint8_t> is_filled;
     GroundFrame frame;
-    float min_m = 0.0f, max_m = 0.0f;  ///< over valid samples
+    float min_m = 0.0f, max_m = 0.0f;  ///< over valid samples; edits (relief_edit.h) may leave them wider
 
     size_t index(int col, int row) const {
         return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(col);
@@ -33,6 +34,26 @@ struct HeightGrid {
     bool filled_at(int col, int row) const { return !is_filled.empty() && is_filled[index(col, row)] != 0; }
     bool has_voids() const { return !is_void.empty(); }
 };
+
+/// Inclusive bounds in samples; empty to begin with.
+struct SampleRange {
+    glm::ivec2 min{0}, max{-1};
+
+    bool is_empty() const { return min.x > max.x || min.y > max.y; }
+    /// 0 when empty, as are the rows.
+    int columns() const { return is_empty() ? 0 : max.x - min.x + 1; }
+    int rows() const { return is_empty() ? 0 : max.y - min.y + 1; }
+    size_t count() const { return static_cast<size_t>(columns()) * static_cast<size_t>(rows()); }
+};
+
+/// What lies in both.
+inline SampleRange common(const SampleRange& a, const SampleRange& b) {
+    return {glm::max(a.min, b.min), glm::min(a.max, b.max)};
+}
+/// The samples of a grid.
+inline SampleRange range_of(const HeightGrid& grid) {
+    return {{0, 0}, {grid.width - 1, grid.height - 1}};
+}
 
 /// What becomes of voids.
 enum class VoidPolicy : uint8_t {

@@ -29,11 +29,6 @@ struct HeightPyramid {
 /// Cost: O(n), about 1 ns a sample (query_bench).
 HeightPyramid make_height_pyramid(const HeightGrid& grid, unsigned threads);
 
-/// Inclusive bounds in samples.
-struct SampleRange {
-    glm::ivec2 min{0}, max{0};
-};
-
 /// Takes changed samples over. @param changed  clipped to the grid. Cost: O(changed samples + levels).
 void update(HeightPyramid& pyramid, const HeightGrid& grid, const SampleRange& changed);
 

@@ -39,6 +39,7 @@ struct Painting {
     float steepening = 1.0f;  ///< for the light only: coarse samples have smoothed the slopes they measured
     float flat_light = 1.0f;  ///< luminance of level ground, what a photograph was taken under
     StreetCover streets{};
+    int averaged = 1;  ///< samples a texel, each way
 };
 
 Sample sample_at(const Painting& painting, int col, int row) {
@@ -55,7 +56,7 @@ Sample sample_at(const Painting& painting, int col, int row) {
         sample.height_gradient.z = (grid.at(col, south) - grid.at(col, north)) /
                                    (static_cast<float>(south - north) * painting.cell_m.y);
     }
-    const size_t index = grid.index(col, row);
+    const size_t index = painting.relief.index(col, row);
     sample.land = {painting.relief.prominence_m[index],
                    static_cast<float>(painting.relief.sunlight[index]) / 255.0f};
     if (!painting.relief.shore.empty() && painting.relief.shore[index] != 255) {
@@ -64,14 +65,15 @@ Sample sample_at(const Painting& painting, int col, int row) {
     return sample;
 }
 
-/// The two rows of samples around a line of texels, made when the line moves on.
+/// The two rows of samples, within the relief's range, around a line of texels, made when the line moves on.
 class SampleRows {
   public:
     explicit SampleRows(const Painting& painting) : painting_(painting) {}
 
     void move_to(double row) {
-        const int last = painting_.grid.height - 1;
-        const int north = std::clamp(static_cast<int>(std::floor(row)), 0, last);
+        const data::SampleRange& range = painting_.relief.range;
+        const int last = range.max.y;
+        const int north = std::clamp(static_cast<int>(std::floor(row)), range.min.y, last);
         part_ = std::clamp(static_cast<float>(row - north), 0.0f, 1.0f);
         if (north == row_) return;
         row_ = north;
@@ -80,18 +82,20 @@ class SampleRows {
     }
 
     Sample at(double col) const {
-        const int last = painting_.grid.width - 1;
-        const int west = std::clamp(static_cast<int>(std::floor(col)), 0, last);
-        const auto w = static_cast<size_t>(west), e = static_cast<size_t>(std::min(west + 1, last));
+        const int first = painting_.relief.range.min.x, last = painting_.relief.range.max.x;
+        const int west = std::clamp(static_cast<int>(std::floor(col)), first, last);
+        const auto w = static_cast<size_t>(west - first),
+                   e = static_cast<size_t>(std::min(west + 1, last) - first);
         const float part = std::clamp(static_cast<float>(col - west), 0.0f, 1.0f);
         return mix(mix(north_[w], north_[e], part), mix(south_[w], south_[e], part), part_);
     }
 
   private:
     void fill(std::vector<Sample>& line, int row) {
-        line.resize(static_cast<size_t>(painting_.grid.width));
-        for (int col = 0; col < painting_.grid.width; ++col)
-            line[static_cast<size_t>(col)] = sample_at(painting_, col, row);
+        const data::SampleRange& range = painting_.relief.range;
+        line.resize(static_cast<size_t>(range.columns()));
+        for (int col = range.min.x; col <= range.max.x; ++col)
+            line[static_cast<size_t>(col - range.min.x)] = sample_at(painting_, col, row);
     }
 
     const Painting& painting_;
@@ -146,31 +150,39 @@ glm::vec4 colour_at(const Painting& painting, const SampleRows& rows, const glm:
     return glm::vec4(colour, detail);
 }
 
-void paint_rows(const Painting& painting, data::Image& out, size_t begin, size_t end, int averaged) {
+/// Rows [begin, end) of a rectangle.
+void paint_rows(const Painting& painting, data::Image& out, const TexelRect& rect, size_t begin, size_t end) {
     SampleRows rows(painting);
+    const int averaged = painting.averaged;
     const double col_step = static_cast<double>(painting.grid.width) / out.width;
     const double row_step = static_cast<double>(painting.grid.height) / out.height;
-    std::vector<glm::vec4> line(static_cast<size_t>(out.width));
-    for (size_t y = begin; y < end; ++y) {
+    std::vector<glm::vec4> line(static_cast<size_t>(rect.width));
+    for (size_t y = begin + static_cast<size_t>(rect.y); y < end + static_cast<size_t>(rect.y); ++y) {
         std::fill(line.begin(), line.end(), glm::vec4(0.0f));
         for (int sub_row = 0; sub_row < averaged; ++sub_row) {
             const double row = (static_cast<double>(y) + (sub_row + 0.5) / averaged) * row_step - 0.5;
             rows.move_to(row);
-            for (size_t x = 0; x < line.size(); ++x) {
-                const float street = painting.streets.at(static_cast<int>(x), static_cast<int>(y));
+            for (size_t i = 0; i < line.size(); ++i) {
+                const int x = rect.x + static_cast<int>(i);
+                const float street = painting.streets.at(x, static_cast<int>(y));
                 for (int sub_col = 0; sub_col < averaged; ++sub_col) {
-                    const double col = (static_cast<double>(x) + (sub_col + 0.5) / averaged) * col_step - 0.5;
-                    line[x] += colour_at(painting, rows, {col, row}, street);
+                    const double col = (x + (sub_col + 0.5) / averaged) * col_step - 0.5;
+                    line[i] += colour_at(painting, rows, {col, row}, street);
                 }
             }
         }
-        uint8_t* texel = &out.rgba[y * line.size() * 4];
+        uint8_t* texel = &out.rgba[(y * static_cast<size_t>(out.width) + static_cast<size_t>(rect.x)) * 4];
         for (const glm::vec4& sum : line) {
             const glm::vec4 colour = sum / static_cast<float>(averaged * averaged);
             for (int i = 0; i < 4; ++i)
                 *texel++ = static_cast<uint8_t>(std::clamp(colour[i], 0.0f, 1.0f) * 255.0f + 0.5f);
         }
     }
+}
+
+void paint_rect(const Painting& painting, data::Image& out, const TexelRect& rect, unsigned threads) {
+    lod::parallel_for(static_cast<size_t>(rect.height), threads,
+                      [&](size_t begin, size_t end) { paint_rows(painting, out, rect, begin, end); });
 }
 
 /// Texels per sample when finer, samples per texel when coarser; one of the two is 1.
@@ -190,29 +202,85 @@ Ratio ratio_of(const data::HeightGrid& grid, const data::Image& imagery,
     return ratio;
 }
 
+/// @param texture_px  size of the image
+Painting make_painting(const data::HeightGrid& grid, const data::Image& imagery,
+                       const GroundTextureOptions& options, Relief relief, const glm::ivec2& texture_px) {
+    const double middle_col = (grid.width - 1) / 2.0, middle_row = (grid.height - 1) / 2.0;
+    const double latitude_deg =
+        grid.frame.world().has_datum ? grid.frame.site_from_grid(middle_col, middle_row).y : 45.0;
+    Painting painting{grid, imagery, std::move(relief), climate_at(latitude_deg * std::numbers::pi / 180.0),
+                      glm::vec2(grid.frame.cell_m())};
+    painting.steepening = 1.0f + 1.2f * glm::smoothstep(5.0f, 90.0f, painting.cell_m.x);
+    painting.flat_light =
+        glm::dot(lit(glm::vec3(1.0f), static_cast<float>(kSunEnu.z), 0.85f), glm::vec3(0.3f, 0.6f, 0.1f));
+    painting.streets = cover_streets(options.streets, grid, texture_px);
+    painting.averaged = ratio_of(grid, imagery, options).coarser;
+    return painting;
+}
+
+/// Samples that an edit may light or colour anew: with their neighbours, whose slopes change, and what they shade.
+data::SampleRange touched_by(const data::HeightGrid& grid, const data::HeightBlock& before) {
+    const data::SampleRange& changed = before.range;
+    float low_m = before.height_m.front(), high_m = low_m;
+    size_t next = 0;
+    for (int row = changed.min.y; row <= changed.max.y; ++row) {
+        for (int col = changed.min.x; col <= changed.max.x; ++col) {
+            const float was_m = before.height_m[next++], now_m = grid.at(col, row);
+            low_m = std::min({low_m, was_m, now_m});
+            high_m = std::max({high_m, was_m, now_m});
+        }
+    }
+    const data::SampleRange wide{changed.min - 1 - shadow_reach(grid, double(high_m) - double(low_m)),
+                                 changed.max + 1};
+    return data::common(wide, data::range_of(grid));
+}
+
+/// The texels between whose samples one of the range may be.
+TexelRect texels_over(const data::HeightGrid& grid, const data::SampleRange& range,
+                      const data::Image& image) {
+    const auto first = [](int sample, int samples, int texels) {
+        return std::clamp(static_cast<int>(std::floor((sample - 0.5) * texels / samples)), 0, texels - 1);
+    };
+    const auto last = [](int sample, int samples, int texels) {
+        return std::clamp(static_cast<int>(std::floor((sample + 1.5) * texels / samples)), 0, texels - 1);
+    };
+    TexelRect rect;
+    rect.x = first(range.min.x, grid.width, image.width);
+    rect.y = first(range.min.y, grid.height, image.height);
+    rect.width = last(range.max.x, grid.width, image.width) - rect.x + 1;
+    rect.height = last(range.max.y, grid.height, image.height) - rect.y + 1;
+    return rect;
+}
+
 }  // namespace
 
 data::Image paint_ground(const data::HeightGrid& grid, const data::Image& imagery,
                          const GroundTextureOptions& options) {
-    const double middle_col = (grid.width - 1) / 2.0, middle_row = (grid.height - 1) / 2.0;
-    const double latitude_deg =
-        grid.frame.world().has_datum ? grid.frame.site_from_grid(middle_col, middle_row).y : 45.0;
-    Painting painting{grid, imagery, measure_relief(grid, options.threads),
-                      climate_at(latitude_deg * std::numbers::pi / 180.0), glm::vec2(grid.frame.cell_m())};
-    painting.steepening = 1.0f + 1.2f * glm::smoothstep(5.0f, 90.0f, painting.cell_m.x);
-    painting.flat_light =
-        glm::dot(lit(glm::vec3(1.0f), static_cast<float>(kSunEnu.z), 0.85f), glm::vec3(0.3f, 0.6f, 0.1f));
-
     const Ratio ratio = ratio_of(grid, imagery, options);
     data::Image image;
     image.width = std::max(grid.width * ratio.finer / ratio.coarser, 1);
     image.height = std::max(grid.height * ratio.finer / ratio.coarser, 1);
-    painting.streets = cover_streets(options.streets, grid, {image.width, image.height});
+    const Painting painting = make_painting(grid, imagery, options, measure_relief(grid, options.threads),
+                                            {image.width, image.height});
     image.rgba.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 4);
-    lod::parallel_for(static_cast<size_t>(image.height), options.threads, [&](size_t begin, size_t end) {
-        paint_rows(painting, image, begin, end, ratio.coarser);
-    });
+    paint_rect(painting, image, {0, 0, image.width, image.height}, options.threads);
     return image;
+}
+
+TexelRect repaint_ground(const data::HeightGrid& grid, const data::Image& imagery,
+                         const GroundTextureOptions& options, const data::HeightBlock& before,
+                         data::Image& image) {
+    if (before.range.is_empty() || image.width == 0) return {};
+    const data::SampleRange touched = touched_by(grid, before);
+    const TexelRect rect = texels_over(grid, touched, image);
+    // What these texels lie between: a sample more each way, or as many as a texel is wide.
+    const glm::ivec2 margin(grid.width / image.width + 2, grid.height / image.height + 2);
+    const data::SampleRange read =
+        data::common({touched.min - 2 * margin, touched.max + 2 * margin}, data::range_of(grid));
+    const Painting painting = make_painting(
+        grid, imagery, options, measure_relief(grid, read, options.threads), {image.width, image.height});
+    paint_rect(painting, image, rect, options.threads);
+    return rect;
 }
 
 }  // namespace sim

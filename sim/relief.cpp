@@ -25,25 +25,39 @@ void box_mean(const float* in, float* out, int count, size_t stride, int radius)
     }
 }
 
+/// Half width of the mean in cells.
+int mean_radius(double cell_m) {
+    return std::clamp(static_cast<int>(kSurroundings_m / cell_m), 2, 200);
+}
+
 std::vector<float> prominence_of(const data::HeightGrid& grid, unsigned threads) {
     const auto width = static_cast<size_t>(grid.width), height = static_cast<size_t>(grid.height);
     const glm::dvec2 cell = grid.frame.cell_m();
-    const auto radius = [](double cell_m) {
-        return std::clamp(static_cast<int>(kSurroundings_m / cell_m), 2, 200);
-    };
     std::vector<float> rows(grid.height_m.size()), mean(grid.height_m.size());
     lod::parallel_for(height, threads, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {
-            box_mean(&grid.height_m[row * width], &rows[row * width], grid.width, 1, radius(cell.x));
+            box_mean(&grid.height_m[row * width], &rows[row * width], grid.width, 1, mean_radius(cell.x));
         }
     });
     lod::parallel_for(width, threads, [&](size_t begin, size_t end) {
         for (size_t col = begin; col < end; ++col)
-            box_mean(&rows[col], &mean[col], grid.height, width, radius(cell.y));
+            box_mean(&rows[col], &mean[col], grid.height, width, mean_radius(cell.y));
     });
     for (size_t i = 0; i < mean.size(); ++i)
         mean[i] = grid.height_m[i] - mean[i];
     return mean;
+}
+
+/// How a ray of sun goes on from column to column, westward.
+struct SunRay {
+    double shift = 0.0;   ///< rows north
+    double drop_m = 0.0;  ///< down
+    double soft_m = 0.0;  ///< width of the shadow's edge, in height
+};
+SunRay sun_ray(const data::HeightGrid& grid) {
+    const glm::dvec2 cell = grid.frame.cell_m();
+    const double drop_m = cell.x * kSunEnu.z / kSunEast;
+    return {kSunSouth / kSunEast * cell.x / cell.y, drop_m, 0.15 * drop_m + 1.0};
 }
 
 /// Cast shadows by one sweep away from the sun, line by line: the lowest height that still sees the sun follows
@@ -51,10 +65,7 @@ std::vector<float> prominence_of(const data::HeightGrid& grid, unsigned threads)
 std::vector<uint8_t> sunlight_of(const data::HeightGrid& grid) {
     static_assert(kSunEast > kSunSouth && kSunSouth > 0.0,
                   "the sweep goes west, its rays come from the south-east");
-    const glm::dvec2 cell = grid.frame.cell_m();
-    const double shift = kSunSouth / kSunEast * cell.x / cell.y;  // rows per column
-    const double drop_m = cell.x * kSunEnu.z / kSunEast;
-    const double soft_m = 0.15 * drop_m + 1.0;
+    const auto [shift, drop_m, soft_m] = sun_ray(grid);
     std::vector<uint8_t> sunlight(grid.height_m.size(), 255);
     const auto last = static_cast<size_t>(grid.height - 1);
     std::vector<double> ray(last + 1, -1e9), next(last + 1);
@@ -110,6 +121,54 @@ std::vector<uint8_t> shore_of(const data::HeightGrid& grid) {
     return cells;
 }
 
+/// A range's samples as a grid of their own; its place in the world is not that of the range.
+data::HeightGrid cut_out(const data::HeightGrid& grid, const data::SampleRange& range) {
+    data::HeightGrid part;
+    part.width = range.columns();
+    part.height = range.rows();
+    part.frame = grid.frame;
+    part.height_m.reserve(range.count());
+    for (int row = range.min.y; row <= range.max.y; ++row) {
+        const auto first = grid.height_m.begin() + static_cast<ptrdiff_t>(grid.index(range.min.x, row));
+        part.height_m.insert(part.height_m.end(), first, first + part.width);
+    }
+    return part;
+}
+
+/// What bears on a range: see measure_relief.
+data::SampleRange bearing_on(const data::HeightGrid& grid, const data::SampleRange& range) {
+    constexpr int kSeaReach = 254;
+    const glm::dvec2 cell = grid.frame.cell_m();
+    const glm::ivec2 mean(mean_radius(cell.x), mean_radius(cell.y));
+    float lowest_m = grid.max_m;
+    bool is_low = false;
+    for (int row = range.min.y; row <= range.max.y; ++row) {
+        for (int col = range.min.x; col <= range.max.x; ++col) {
+            lowest_m = std::min(lowest_m, grid.at(col, row));
+            is_low |= grid.at(col, row) <= 0.0f;
+        }
+    }
+    const glm::ivec2 sun = shadow_reach(grid, double(grid.max_m) - double(lowest_m));
+    const int sea = is_low ? kSeaReach : 1;
+    const data::SampleRange wide{range.min - glm::max(mean, glm::ivec2(sea)),
+                                 range.max + glm::max(glm::max(mean, sun), glm::ivec2(sea))};
+    return data::common(wide, data::range_of(grid));
+}
+
+template <typename Value>
+std::vector<Value> part_of(const std::vector<Value>& values, const data::SampleRange& all,
+                           const data::SampleRange& part) {
+    std::vector<Value> out;
+    if (values.empty()) return out;
+    out.reserve(part.count());
+    for (int row = part.min.y; row <= part.max.y; ++row) {
+        const auto first = values.begin() + static_cast<ptrdiff_t>(row - all.min.y) * all.columns() +
+                           (part.min.x - all.min.x);
+        out.insert(out.end(), first, first + part.columns());
+    }
+    return out;
+}
+
 }  // namespace
 
 bool is_sea(const data::HeightGrid& grid, int col, int row) {
@@ -122,7 +181,20 @@ bool is_sea(const data::HeightGrid& grid, int col, int row) {
 }
 
 Relief measure_relief(const data::HeightGrid& grid, unsigned threads) {
-    return {prominence_of(grid, threads), sunlight_of(grid), shore_of(grid)};
+    return {data::range_of(grid), prominence_of(grid, threads), sunlight_of(grid), shore_of(grid)};
+}
+
+Relief measure_relief(const data::HeightGrid& grid, const data::SampleRange& range, unsigned threads) {
+    const data::SampleRange wide = bearing_on(grid, range);
+    const Relief all = measure_relief(cut_out(grid, wide), threads);
+    return {range, part_of(all.prominence_m, wide, range), part_of(all.sunlight, wide, range),
+            part_of(all.shore, wide, range)};
+}
+
+glm::ivec2 shadow_reach(const data::HeightGrid& grid, double rise_m) {
+    const SunRay ray = sun_ray(grid);
+    const double cells = std::min((std::max(rise_m, 0.0) + ray.soft_m) / ray.drop_m + 1.0, 1e5);
+    return {static_cast<int>(std::ceil(cells)), static_cast<int>(std::ceil(cells * ray.shift)) + 1};
 }
 
 }  // namespace sim

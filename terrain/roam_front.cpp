@@ -77,6 +77,7 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
     const double passed_s = time_s - std::exchange(now_s_, time_s);
     advance_glides(is_incoherent || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
                    passed_s > kLongestFrame_s);
+    if (!moved_.empty() || !fresh_ground_.empty()) measure_edit();
     if (options_.is_pruning && is_incoherent) take_back_incoherent();
     // Some may have gone with what was taken back.
     std::erase_if(due_,

@@ -25,6 +25,7 @@
 #include "terrain/diamond_rank.h"
 #include "terrain/diamond_table.h"
 #include "terrain/store/page_loader.h"
+#include "terrain/table_edit.h"
 #include "terrain/tessellator.h"
 #include "terrain/unasked_diamonds.h"
 #include "terrain/vertex_glides.h"
@@ -53,6 +54,14 @@ struct RoamOptions {
     double glide_s = 0.0;  ///< time a vertex takes to its place and back; 0: it jumps
 };
 
+/// What an edit took.
+struct FrontEditCounts {
+    TableEditCounts table;
+    uint64_t records = 0;      ///< of the mesh, looked at
+    uint64_t vertices = 0;     ///< moved
+    uint64_t evaluations = 0;  ///< of candidates and diamonds that could be merged
+};
+
 class RoamFront final : public lod::Front {
   public:
     /// @param loader  brings the table's pages while the front runs; null: all of them are there
@@ -74,6 +83,14 @@ class RoamFront final : public lod::Front {
     double jump_px() const override { return jump_px_; }
     uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
     std::string validate() const override;
+
+    /// Takes a change of the grid over, between two frames: the table, the places of vertices, what queues hold. The
+    /// cut stays as it is, and so does hash(); error_px() is true at once. The next frame's jump_px() counts how far
+    /// the edit moved vertices. For a second nothing glides there: new ground appears at once, as fine as the budget
+    /// allows.
+    /// CHECKs that the table is whole: pages of a store are not edited.
+    /// Cost: edit_table's, and O(records over the range + levels).
+    FrontEditCounts edit(const GroundEdit& edit);
 
     /// Forgets everything: back to two triangles. What Duchaineau did for incoherent frames; for comparison.
     void reset();
@@ -133,8 +150,10 @@ class RoamFront final : public lod::Front {
     void recall_waiting();
 
     bool is_gliding(DiamondIndex index) const {
-        return options_.glide_s > 0.0 && !is_cut_ && bucket_of(index) > kFlatBucket;
+        return options_.glide_s > 0.0 && !is_cut_ && bucket_of(index) > kFlatBucket &&
+               (fresh_ground_.empty() || !is_on_fresh_ground(index));
     }
+    bool is_on_fresh_ground(DiamondIndex index) const;
     bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
     void note_pop(DiamondIndex index);
@@ -143,6 +162,11 @@ class RoamFront final : public lod::Front {
     void stay(DiamondIndex index);
     void advance_glides(bool is_cut);
     void measure_glides();
+
+    void list_touched(const data::SampleRange& range, std::vector<DiamondIndex>& out);
+    void take_facts(DiamondIndex index, const DiamondSource& now, FrontEditCounts& counts);
+    void end_glides_over(const data::SampleRange& range);
+    void measure_edit();
 
     DiamondTable table_;
     RoamOptions options_;
@@ -168,6 +192,15 @@ class RoamFront final : public lod::Front {
     double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
     double jump_px_ = 0.0;
     std::vector<DiamondIndex> back_;
+    struct MovedVertex {
+        glm::vec3 place, way;
+    };
+    std::vector<MovedVertex> moved_;  ///< by edits since the last frame
+    struct FreshGround {
+        data::SampleRange range;  ///< on the domain
+        double since_s = 0.0;
+    };
+    std::vector<FreshGround> fresh_ground_;  ///< edited so lately that nothing glides there
 
     Tessellator tessellator_;
     lod::OperationCounts operations_;

@@ -2,23 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/displacement.h"
 #include "terrain/roam_front.h"
 
 namespace terrain {
 namespace {
-
-/// Pixels a displacement costs at a place in view; 0 out of view. The bound of lod/screen_error.h.
-double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place, const glm::vec3& way) {
-    const double length = static_cast<double>(glm::length(way));
-    if (length == 0.0) return 0.0;
-    double worst = 0.0;
-    for (const AnchoredEye& eye : eyes) {
-        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(place) - eye.eye);
-        if (lod::distance_outside_m(eye.metric, centre, length) > 0.0) continue;
-        worst = std::max(worst, lod::screen_error_px(eye.metric, centre, length, length));
-    }
-    return worst;
-}
 
 double cross(GridPoint from, GridPoint a, GridPoint b) {
     return double(a.x - from.x) * double(b.y - from.y) - double(b.x - from.x) * double(a.y - from.y);

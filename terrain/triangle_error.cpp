@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "terrain/block_search.h"
+#include "terrain/plane_rows.h"
 #include "terrain/triangle_rows.h"
 
 namespace terrain {
@@ -35,41 +37,133 @@ float sagitta(const data::HeightGrid& grid, GridPoint p, float p_m, GridPoint q,
     return std::abs(grid.at((p.x + q.x) / 2, (p.y + q.y) / 2) - 0.5f * (p_m + q_m));
 }
 
-/// A square-type triangle: legs along the axes from the apex.
-float legs_on_axes(const data::HeightGrid& grid, const TriangleCorners& t, float gx, float gy) {
-    const int n = std::abs(t.left.x + t.right.x - 2 * t.apex.x);  // one of the two legs is along x
-    const int sx = t.left.x + t.right.x > 2 * t.apex.x ? 1 : -1;
-    const int sy = t.left.y + t.right.y > 2 * t.apex.y ? 1 : -1;
-    const float apex_m = grid.at(t.apex.x, t.apex.y);
-    float worst = 0.0f;
-    for (int row = 0; row <= n; ++row) {
-        const int y = t.apex.y + sy * row;
-        const int x = sx > 0 ? t.apex.x : t.apex.x - (n - row);
-        const float first =
-            apex_m + gy * static_cast<float>(sy * row) + gx * static_cast<float>(x - t.apex.x);
-        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], n - row + 1, first, gx));
+/// Looks at every sample.
+struct Scan {
+    const data::HeightGrid& grid;
+
+    template <typename Rows>
+    float operator()(const TriangleCorners&, const Rows& rows) const {
+        float worst = 0.0f;
+        for (int y = rows.first_y; y <= rows.last_y; ++y) {
+            SampleRow row;
+            if (!rows.at(y, row)) continue;
+            worst = std::max(worst, row_residual(&grid.height_m[grid.index(row.x, y)], row.count, row.first_m,
+                                                 rows.gradient));
+        }
+        return worst;
     }
-    return worst;
+};
+
+/// Looks where the worst may be.
+struct Search {
+    const data::HeightGrid& grid;
+    const data::HeightExtremes& extremes;
+    uint64_t& samples;
+
+    /// @param t  clamped corners
+    template <typename Rows>
+    float operator()(const TriangleCorners& t, const Rows& rows) const {
+        const TriangleSides sides(t.apex, t.left, t.right);
+        WorstSearch search(grid, extremes, sides, rows, plane_of(t));
+        const float worst = search.run();
+        samples += search.samples();
+        return worst;
+    }
+
+  private:
+    SearchPlane plane_of(const TriangleCorners& t) const {
+        const double a = double{grid.at(t.apex.x, t.apex.y)};
+        const double left = double{grid.at(t.left.x, t.left.y)} - a,
+                     right = double{grid.at(t.right.x, t.right.y)} - a;
+        const double lx = t.left.x - t.apex.x, ly = t.left.y - t.apex.y, rx = t.right.x - t.apex.x,
+                     ry = t.right.y - t.apex.y;
+        const double area = lx * ry - rx * ly;
+        return {t.apex, a, (left * ry - right * ly) / area, (right * lx - left * rx) / area};
+    }
+};
+
+struct BlockPlace {
+    size_t level = 0;
+    glm::ivec2 at{0};
+};
+
+/// Samples of a block that lie in a triangle, until there are some of each kind.
+void gather_voids(const SearchedGround& ground, const TriangleSides& sides, const RowSpans& rows,
+                  const BlockPlace& place, VoidCover& cover) {
+    if (cover.any_valid && cover.any_void) return;
+    const data::HeightExtremes::Level& level = ground.extremes.levels[place.level];
+    if (place.at.x >= level.columns || place.at.y >= level.rows) return;
+    const data::SampleRange samples = samples_of(ground.grid, level, place.at.x, place.at.y);
+    if (!sides.may_meet(samples)) return;
+    if (sides.contains(samples)) {
+        const data::HeightExtremes::Block& block = level.blocks[level.index(place.at.x, place.at.y)];
+        cover.any_valid |= block.any_valid;
+        cover.any_void |= block.any_void;
+        return;
+    }
+    if (place.level + 1 < ground.extremes.levels.size()) {
+        for (int i = 0; i < 4; ++i)
+            gather_voids(ground, sides, rows, {place.level + 1, 2 * place.at + glm::ivec2(i & 1, i >> 1)},
+                         cover);
+        return;
+    }
+    for (int y = std::max(samples.min.y, rows.first_row()); y <= std::min(samples.max.y, rows.last_row());
+         ++y) {
+        int first = 0, last = 0;
+        if (!rows.span(y, first, last)) continue;
+        for (int x = std::max(first, samples.min.x); x <= std::min(last, samples.max.x); ++x)
+            (ground.grid.void_at(x, y) ? cover.any_void : cover.any_valid) = true;
+    }
 }
 
-/// A turned triangle: hypotenuse along x (rows shrink towards the apex) or along y (rows grow to the middle).
-float hypotenuse_on_axis(const data::HeightGrid& grid, const TriangleCorners& t, float gx, float gy) {
-    const GridPoint mid{(t.left.x + t.right.x) / 2, (t.left.y + t.right.y) / 2};
-    const bool along_x = t.left.y == t.right.y;
-    const int n = along_x ? std::abs(t.apex.y - mid.y) : std::abs(t.apex.x - mid.x);
-    const int side = along_x ? (t.apex.y > mid.y ? 1 : -1) : (t.apex.x > mid.x ? 1 : -1);
-    const float apex_m = grid.at(t.apex.x, t.apex.y);
-    float worst = 0.0f;
-    for (int row = along_x ? 0 : -n; row <= n; ++row) {
-        const int reach = n - std::abs(row);
-        const int y = along_x ? mid.y + side * row : mid.y + row;
-        const int x = along_x ? mid.x - reach : (side > 0 ? mid.x : mid.x - reach);
-        const int count = along_x ? 2 * reach + 1 : reach + 1;
-        const float first =
-            apex_m + gy * static_cast<float>(y - t.apex.y) + gx * static_cast<float>(x - t.apex.x);
-        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], count, first, gx));
+/// @param worst_of  (corners, rows) to max |sample - plane|
+template <typename WorstOf>
+TriangleError regular_error(const data::HeightGrid& grid, const TriangleCorners& t, const WorstOf& worst_of) {
+    const float a = grid.at(t.apex.x, t.apex.y);
+    const float l = grid.at(t.left.x, t.left.y), r = grid.at(t.right.x, t.right.y);
+    const float scale = std::max({std::abs(a), std::abs(l), std::abs(r)});
+    // Gradients along x and y in metres per cell; divisions by powers of two are exact.
+    float gx, gy, worst;
+    if (t.left.x != t.right.x && t.left.y != t.right.y) {
+        const bool left_on_x = t.left.y == t.apex.y;
+        const GridPoint on_x = left_on_x ? t.left : t.right, on_y = left_on_x ? t.right : t.left;
+        gx = ((left_on_x ? l : r) - a) / static_cast<float>(on_x.x - t.apex.x);
+        gy = ((left_on_x ? r : l) - a) / static_cast<float>(on_y.y - t.apex.y);
+        // Three quarters of all diamonds are of the two finest levels: their few samples lie on the sides.
+        worst = std::abs(on_x.x - t.apex.x) == 2
+                    ? std::max({sagitta(grid, t.left, l, t.right, r), sagitta(grid, t.apex, a, t.left, l),
+                                sagitta(grid, t.apex, a, t.right, r)})
+                    : worst_of(t, LegRows(t, {t.apex, a, gx, gy}));
+    } else if (t.left.y == t.right.y) {
+        gx = (r - l) / static_cast<float>(t.right.x - t.left.x);
+        gy = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.y - t.left.y);
+        worst = std::abs(t.apex.y - t.left.y) == 1 ? sagitta(grid, t.left, l, t.right, r)
+                                                   : worst_of(t, HypotenuseRows(t, {t.apex, a, gx, gy}));
+    } else {
+        gy = (r - l) / static_cast<float>(t.right.y - t.left.y);
+        gx = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.x - t.left.x);
+        worst = std::abs(t.apex.x - t.left.x) == 1 ? sagitta(grid, t.left, l, t.right, r)
+                                                   : worst_of(t, HypotenuseRows(t, {t.apex, a, gx, gy}));
     }
-    return worst;
+    return {with_rounding(worst, scale), gx, gy};
+}
+
+template <typename WorstOf>
+TriangleError clamped_error(const data::HeightGrid& grid, const Domain& domain, const TriangleCorners& t,
+                            const WorstOf& worst_of) {
+    const GridPoint a = domain.clamped(t.apex), l = domain.clamped(t.left), r = domain.clamped(t.right);
+    if (is_degenerate(a, l, r)) return {};
+    const double ha = double(grid.at(a.x, a.y));
+    const double hl = double(grid.at(l.x, l.y)) - ha, hr = double(grid.at(r.x, r.y)) - ha;
+    const double lx = l.x - a.x, ly = l.y - a.y, rx = r.x - a.x, ry = r.y - a.y;
+    const double area = lx * ry - rx * ly;
+    const glm::dvec2 gradient((hl * ry - hr * ly) / area, (hr * lx - hl * rx) / area);
+    const float worst = worst_of({a, l, r}, ClampedRows(RowSpans(a, l, r), a, ha, gradient));
+    // The gradient itself is rounded here: up to 2^-24 of it for every cell of the widest row.
+    const float slack = static_cast<float>(std::abs(gradient.x) * domain.width * 0x1p-23);
+    const float scale = std::max({std::abs(float(ha)), std::abs(float(ha + hl)), std::abs(float(ha + hr))});
+    return {worst == 0.0f ? 0.0f : with_rounding(worst, scale) + slack, static_cast<float>(gradient.x),
+            static_cast<float>(gradient.y)};
 }
 
 }  // namespace
@@ -101,59 +195,22 @@ float max_residual(const float* samples, int count, float first, float gradient)
     return worst;
 }
 
-TriangleError regular_triangle_error(const data::HeightGrid& grid, const TriangleCorners& t) {
-    const float a = grid.at(t.apex.x, t.apex.y);
-    const float l = grid.at(t.left.x, t.left.y), r = grid.at(t.right.x, t.right.y);
-    const float scale = std::max({std::abs(a), std::abs(l), std::abs(r)});
-    // Gradients along x and y in metres per cell; divisions by powers of two are exact.
-    float gx, gy, worst;
-    if (t.left.x != t.right.x && t.left.y != t.right.y) {
-        const bool left_on_x = t.left.y == t.apex.y;
-        const GridPoint on_x = left_on_x ? t.left : t.right, on_y = left_on_x ? t.right : t.left;
-        gx = ((left_on_x ? l : r) - a) / static_cast<float>(on_x.x - t.apex.x);
-        gy = ((left_on_x ? r : l) - a) / static_cast<float>(on_y.y - t.apex.y);
-        // Three quarters of all diamonds are of the two finest levels: their few samples lie on the sides.
-        worst = std::abs(on_x.x - t.apex.x) == 2
-                    ? std::max({sagitta(grid, t.left, l, t.right, r), sagitta(grid, t.apex, a, t.left, l),
-                                sagitta(grid, t.apex, a, t.right, r)})
-                    : legs_on_axes(grid, t, gx, gy);
-    } else if (t.left.y == t.right.y) {
-        gx = (r - l) / static_cast<float>(t.right.x - t.left.x);
-        gy = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.y - t.left.y);
-        worst = std::abs(t.apex.y - t.left.y) == 1 ? sagitta(grid, t.left, l, t.right, r)
-                                                   : hypotenuse_on_axis(grid, t, gx, gy);
-    } else {
-        gy = (r - l) / static_cast<float>(t.right.y - t.left.y);
-        gx = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.x - t.left.x);
-        worst = std::abs(t.apex.x - t.left.x) == 1 ? sagitta(grid, t.left, l, t.right, r)
-                                                   : hypotenuse_on_axis(grid, t, gx, gy);
-    }
-    return {with_rounding(worst, scale), gx, gy};
+TriangleError regular_triangle_error(const data::HeightGrid& grid, const TriangleCorners& corners) {
+    return regular_error(grid, corners, Scan{grid});
 }
 
 TriangleError clamped_triangle_error(const data::HeightGrid& grid, const Domain& domain,
-                                     const TriangleCorners& t) {
-    const GridPoint a = domain.clamped(t.apex), l = domain.clamped(t.left), r = domain.clamped(t.right);
-    if (is_degenerate(a, l, r)) return {};
-    const double ha = double(grid.at(a.x, a.y));
-    const double hl = double(grid.at(l.x, l.y)) - ha, hr = double(grid.at(r.x, r.y)) - ha;
-    const double lx = l.x - a.x, ly = l.y - a.y, rx = r.x - a.x, ry = r.y - a.y;
-    const double area = lx * ry - rx * ly;
-    const double gx = (hl * ry - hr * ly) / area, gy = (hr * lx - hl * rx) / area;
-    const RowSpans rows(a, l, r);
-    float worst = 0.0f;
-    for (int y = rows.first_row(); y <= rows.last_row(); ++y) {
-        int x = 0, x_last = 0;
-        if (!rows.span(y, x, x_last)) continue;
-        const double first = ha + gx * (x - a.x) + gy * (y - a.y);
-        worst = std::max(worst, row_residual(&grid.height_m[grid.index(x, y)], x_last - x + 1,
-                                             static_cast<float>(first), static_cast<float>(gx)));
-    }
-    // The gradient itself is rounded here: up to 2^-24 of it for every cell of the widest row.
-    const float slack = static_cast<float>(std::abs(gx) * domain.width * 0x1p-23);
-    const float scale = std::max({std::abs(float(ha)), std::abs(float(ha + hl)), std::abs(float(ha + hr))});
-    return {worst == 0.0f ? 0.0f : with_rounding(worst, scale) + slack, static_cast<float>(gx),
-            static_cast<float>(gy)};
+                                     const TriangleCorners& corners) {
+    return clamped_error(grid, domain, corners, Scan{grid});
+}
+
+TriangleError find_triangle_error(const SearchedGround& ground, const Domain& domain,
+                                  const TriangleCorners& corners, uint64_t& samples) {
+    const bool is_inside =
+        domain.in_raster(corners.apex) && domain.in_raster(corners.left) && domain.in_raster(corners.right);
+    const Search search{ground.grid, ground.extremes, samples};
+    return is_inside ? regular_error(ground.grid, corners, search)
+                     : clamped_error(ground.grid, domain, corners, search);
 }
 
 VoidCover void_cover(const data::HeightGrid& grid, const Domain& domain, const TriangleCorners& t) {
@@ -167,6 +224,14 @@ VoidCover void_cover(const data::HeightGrid& grid, const Domain& domain, const T
         for (; x <= x_last; ++x)
             (grid.void_at(x, y) ? cover.any_void : cover.any_valid) = true;
     }
+    return cover;
+}
+
+VoidCover find_void_cover(const SearchedGround& ground, const Domain& domain, const TriangleCorners& t) {
+    VoidCover cover;
+    const GridPoint a = domain.clamped(t.apex), l = domain.clamped(t.left), r = domain.clamped(t.right);
+    if (is_degenerate(a, l, r)) return cover;
+    gather_voids(ground, TriangleSides(a, l, r), RowSpans(a, l, r), {0, {0, 0}}, cover);
     return cover;
 }
 

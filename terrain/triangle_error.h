@@ -1,6 +1,7 @@
 // The largest distance of height samples from the plane of one bintree triangle: the kernel of DiamondTable.
 #pragma once
 
+#include "data/height_extremes.h"
 #include "data/height_grid.h"
 #include "terrain/diamond.h"
 
@@ -34,5 +35,17 @@ struct VoidCover {
     bool any_void = false;
 };
 VoidCover void_cover(const data::HeightGrid& grid, const Domain& domain, const TriangleCorners& corners);
+
+/// A grid and what a search skips by.
+struct SearchedGround {
+    const data::HeightGrid& grid;
+    const data::HeightExtremes& extremes;  ///< of the grid as it is
+};
+
+/// What the functions above say, to the bit, found by a search instead of a scan (block_search.h): for triangles that
+/// cover many samples. @param samples  grows by how many were looked at
+TriangleError find_triangle_error(const SearchedGround& ground, const Domain& domain,
+                                  const TriangleCorners& corners, uint64_t& samples);
+VoidCover find_void_cover(const SearchedGround& ground, const Domain& domain, const TriangleCorners& corners);
 
 }  // namespace terrain

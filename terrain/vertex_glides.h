@@ -10,6 +10,7 @@
 // Source: seed paper 002, geomorphing; here in time, because a front at its budget has no view at which w is 0.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 #include <span>
@@ -61,6 +62,24 @@ class VertexGlides {
     /// Moves all to where they are at `now_s`. Those that arrived are dropped; those back on their edge stay, and
     /// are listed in `back`. Cost: about 20 ns a glide.
     void advance(double now_s, std::vector<DiamondIndex>& back);
+
+    /// After places have changed: all go on from where they are on their way, between their new places.
+    /// @param place_m  a record's place, metres relative to the anchor
+    template <typename PlaceOf>
+    void rebase(double now_s, const PlaceOf& place_m) {
+        farthest_m_ = 0.0f;
+        for (std::vector<VertexGlide>& glides : levels_) {
+            for (VertexGlide& glide : glides) {
+                glide.base_from_place_m = -place_m(glide.index);
+                for (size_t end = 0; end < 3; ++end) {
+                    if (glide.base.shares[end] > 0.0f)
+                        glide.base_from_place_m += glide.base.shares[end] * place_m(glide.base.ends[end]);
+                }
+                glide.shown_m = glide.before_m = weight(glide, now_s) * shown_base_m(glide);
+                farthest_m_ = std::max(farthest_m_, glm::length(glide.shown_m));
+            }
+        }
+    }
 
     /// Displacement of a vertex from its place; zero for one that does not glide.
     glm::vec3 displacement_m(DiamondIndex index, int level) const;
