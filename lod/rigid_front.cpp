@@ -75,6 +75,22 @@ void RigidFront::set_pose(uint32_t body, const BodyPose& pose) {
     bodies_[body] = pose;
 }
 
+void RigidFront::rewrite(uint32_t part, uint32_t first_vertex, std::span<const Vertex> vertices) {
+    CHECK(part < parts_.size());
+    Placed& placed = parts_[part];
+    CHECK(vertices.size() <= placed.vertex_count && first_vertex <= placed.vertex_count - vertices.size());
+    const uint32_t first = placed.first_vertex + first_vertex;
+    const std::span<Vertex> old = std::span(vertices_).subspan(first, vertices.size());
+    hash_ ^= hash_combine(hash_of(old, {}), first);
+    std::copy(vertices.begin(), vertices.end(), old.begin());
+    hash_ ^= hash_combine(hash_of(old, {}), first);
+    const Sphere sphere =
+        bounding_sphere(std::span(vertices_).subspan(placed.first_vertex, placed.vertex_count));
+    placed.centre = sphere.centre;
+    placed.radius_m = sphere.radius_m;
+    rewritten_.push_back({first, static_cast<uint32_t>(vertices.size())});
+}
+
 void RigidFront::set_ground_error_px(double error_px) {
     ground_error_px_ = error_px;
 }
@@ -122,6 +138,13 @@ Instance RigidFront::instance_of(const BodyPose& pose, const View& view) const {
 }
 
 void RigidFront::emit_writes(DrawList& out) {
+    if (is_written_) {
+        for (const VertexRange& range : rewritten_) {
+            out.vertex_writes.push_back(
+                {region_.first_vertex + range.first, std::span(vertices_).subspan(range.first, range.count)});
+        }
+    }
+    rewritten_.clear();
     if (is_written_ || vertices_.empty()) return;
     CHECK(region_.vertex_capacity >= vertices_.size());  // place() comes before the first emit
     out.vertex_writes.push_back({region_.first_vertex, vertices_});

@@ -29,6 +29,11 @@ class RigidFront final : public Front {
     /// Moves a body; takes effect with the next emit.
     void set_pose(uint32_t body, const BodyPose& pose);
 
+    /// Replaces vertices of a part, from the next emit on; its sphere follows. Undone by the vertices before, hash()
+    /// included. CHECKs that the part has them.
+    /// Cost: O(vertices of the part).
+    void rewrite(uint32_t part, uint32_t first_vertex, std::span<const Vertex> vertices);
+
     /// For vertices of Material::kWallFoot: how far they are lowered this frame, px; what the caller allows for the
     /// ground's screen error.
     void set_ground_error_px(double error_px);
@@ -71,6 +76,10 @@ class RigidFront final : public Front {
     std::vector<uint32_t> instance_of_body_;  ///< scratch of emit: the body's record in this view
     PoolRegion region_;
     bool is_written_ = false;
+    struct VertexRange {
+        uint32_t first = 0, count = 0;
+    };
+    std::vector<VertexRange> rewritten_;  ///< since the last emit
     double ground_error_px_ = 0.0;
     glm::dvec3 up_world_{0.0, 0.0, 1.0};
     uint64_t hash_ = 0;

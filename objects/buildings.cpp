@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lod/base/check.h"
 #include "objects/building_colours.h"
 #include "objects/building_mesh.h"
 #include "objects/hilbert.h"
@@ -73,10 +74,40 @@ Buildings build_buildings(const data::Footprints& footprints, const data::Height
             continue;
         }
         append_to_cells(mesh, options.triangles_per_cell, buildings.parts);
-        buildings.sites.push_back(
-            {mesh.base_world, mesh.ground.lowest_m, mesh.ground.highest_m, next.footprint});
+        const auto count = static_cast<uint32_t>(mesh.vertices.size());
+        buildings.sites.push_back({mesh.base_world, mesh.ground.lowest_m, mesh.ground.highest_m,
+                                   next.footprint, static_cast<uint32_t>(buildings.parts.size() - 1),
+                                   static_cast<uint32_t>(buildings.parts.back().vertices.size()) - count,
+                                   count});
     }
     return buildings;
+}
+
+data::SampleRange ground_under(const data::Footprint& footprint, const data::HeightGrid& ground) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const std::vector<glm::dvec2>& ring : footprint.rings) {
+        for (const glm::dvec2& site : ring) {
+            const glm::dvec2 at = ground.frame.grid_from_site({site.x, site.y, 0.0});
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
+    }
+    const glm::dvec2 last(ground.width - 1, ground.height - 1);
+    low = glm::max(glm::floor(low), glm::dvec2(0.0));
+    high = glm::min(glm::ceil(high), last);
+    if (!(low.x <= high.x && low.y <= high.y)) return {};
+    return {glm::ivec2(low), glm::ivec2(high)};
+}
+
+void rebuild_building(const data::Footprint& footprint, const Ground& ground, const BuildingOptions& options,
+                      BuildingSite& site, std::vector<lod::Vertex>& vertices) {
+    BuildingMesh mesh;
+    const BuildingColours colours = building_colours(options.colour_seed, footprint.id, footprint.height_m);
+    CHECK(mesh_building(ground, footprint, colours, mesh) && mesh.vertices.size() == site.vertex_count);
+    site.base_world = mesh.base_world;
+    site.lowest_ground_m = mesh.ground.lowest_m;
+    site.highest_ground_m = mesh.ground.highest_m;
+    vertices = std::move(mesh.vertices);
 }
 
 }  // namespace objects

@@ -4,6 +4,8 @@
 #include <bit>
 #include <string>
 
+#include "lod/base/check.h"
+
 namespace render {
 
 namespace {
@@ -39,9 +41,24 @@ lod::Result<Texture2D> make_ground_texture(int width, int height, std::span<cons
     Texture2D texture = Texture2D::create();
     glTextureStorage2D(texture.id(), levels, GL_RGBA8, width, height);
     glTextureSubImage2D(texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    glGenerateTextureMipmap(texture.id());
+    GLint number = 0;
+    for (const MipLevel& level : make_mip_levels(width, height, rgba)) {
+        glTextureSubImage2D(texture.id(), ++number, 0, 0, level.width, level.height, GL_RGBA,
+                            GL_UNSIGNED_BYTE, level.rgba.data());
+    }
     set_filter(texture.id(), is_software);
     return texture;
+}
+
+void write_texels(const Texture2D& texture, const TexelPatch& patch) {
+    if (patch.width == 0 || patch.height == 0) return;
+    GLint width = 0, height = 0;
+    glGetTextureLevelParameteriv(texture.id(), patch.level, GL_TEXTURE_WIDTH, &width);
+    glGetTextureLevelParameteriv(texture.id(), patch.level, GL_TEXTURE_HEIGHT, &height);
+    CHECK(patch.x >= 0 && patch.y >= 0 && patch.x + patch.width <= width && patch.y + patch.height <= height);
+    CHECK(patch.rgba.size() == static_cast<size_t>(patch.width) * static_cast<size_t>(patch.height) * 4);
+    glTextureSubImage2D(texture.id(), patch.level, patch.x, patch.y, patch.width, patch.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, patch.rgba.data());
 }
 
 }  // namespace render

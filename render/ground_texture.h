@@ -5,6 +5,7 @@
 
 #include "lod/base/result.h"
 #include "render/gl_handle.h"
+#include "render/mip_levels.h"
 
 namespace render {
 
@@ -13,5 +14,8 @@ namespace render {
 /// Fails when the size does not match or exceeds what the driver takes.
 lod::Result<Texture2D> make_ground_texture(int width, int height, std::span<const uint8_t> rgba,
                                            bool is_software);
+
+/// Replaces some texels. CHECKs that they lie in the texture.
+void write_texels(const Texture2D& texture, const TexelPatch& patch);
 
 }  // namespace render

@@ -128,6 +128,11 @@ lod::Result<lod::Ok> Renderer::set_ground_texture(int width, int height, std::sp
     return lod::Ok{};
 }
 
+void Renderer::write_ground_texels(std::span<const TexelPatch> patches) {
+    for (const TexelPatch& patch : patches)
+        write_texels(state_->textures.ground, patch);
+}
+
 void Renderer::set_detail(const SurfaceDetail& detail) {
     state_->in_flight.wait();
     state_->ground.detail = detail;

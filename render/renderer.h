@@ -16,6 +16,7 @@
 #include "lod/base/result.h"
 #include "lod/draw_list.h"
 #include "lod/view.h"
+#include "render/mip_levels.h"
 
 namespace render {
 
@@ -93,6 +94,10 @@ class Renderer {
     /// many of them before the first.
     lod::Result<lod::Ok> set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
                                             int grid_width, int grid_height, double lead = 0.5);
+
+    /// Replaces texels of the ground's colour on each level, from the next draw on. Allocates nothing.
+    /// CHECKs that they lie in it.
+    void write_ground_texels(std::span<const TexelPatch> patches);
 
     /// From now on ground, roofs and walls show structure finer than their colours: grass, roofing, windows. It
     /// melts into its mean where it is smaller than a pixel. Cost: about 0.2 s, once.

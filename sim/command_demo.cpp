@@ -64,6 +64,7 @@ lod::Result<Flight> fly(Stage& stage, const std::string& scene, const ScheduleAr
 /// @param middle_s  of the flight; @param seek_s what the schedule is at then
 lod::Result<std::string> take_pictures(Stage& stage, const fs::path& out, double middle_s, double seek_s) {
     std::string lines;
+    bring_relief_to(stage, seek_s);
     for (Sight& sight : find_sights(*stage.world, middle_s)) {
         sight.shot.schedule_s = seek_s;
         Allowance allowance;

@@ -132,6 +132,7 @@ lod::Result<lod::Ok> run_still(const StillArguments& arguments) {
     if (!stage) return stage.error();
     Shot shot;
     shot.time_s = shot.schedule_s = shot.shown_s = still_time_s(arguments, *scene);
+    bring_relief_to(*stage, shot.schedule_s);
     shot.state = still_state(arguments, *stage->world, shot.time_s);
     const auto record = make_frame(*stage, shot, still_allowance(arguments));
     if (!record) return record.error();

@@ -17,6 +17,8 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr NumberRange kAngle{-3600.0, 3600.0};
 constexpr NumberRange kHeight{-20000.0, 1e7};
 constexpr NumberRange kScale{1e-6, 1e6};
+constexpr NumberRange kTime{-1e9, 4e9};
+constexpr double kRimShare = 0.2;  // of a crater's depth
 
 /// Where relative paths of the file start, and the first problem.
 struct Reading {
@@ -50,6 +52,38 @@ TerrainSource read_terrain(const toml::value& value, Reading& reading) {
     for (std::string& path : terrain.imagery)
         path = reading.resolve(path);
     return terrain;
+}
+
+EditSource read_edit(const toml::value& value, Reading& reading) {
+    TomlTable table(value, "[[edits]]", reading.problem);
+    EditSource edit;
+    edit.line = table.line();
+    size_t kind = 0;
+    table.require("kind");
+    table.take_word("kind", {"crater", "excavation", "raster"}, kind);
+    edit.kind = static_cast<EditSource::Kind>(kind);
+    table.require("time_s");
+    table.take("time_s", edit.time_s, kTime);
+    if (edit.kind == EditSource::Kind::kRaster) {
+        reading.take_source(table, edit.source);
+        table.finish();
+        return edit;
+    }
+    std::vector<double> position;
+    for (const char* key : {"position", "radius_m", "depth_m"})
+        table.require(key);
+    table.take("position", position, 2, 2);
+    table.take("radius_m", edit.radius_m, {0.01, 1e5});
+    table.take("depth_m", edit.depth_m, {0.0, 1e4});
+    edit.rim_m = kRimShare * edit.depth_m;
+    double slope_deg = 45.0;
+    if (edit.kind == EditSource::Kind::kCrater) table.take("rim_m", edit.rim_m, {0.0, 1e4});
+    if (edit.kind == EditSource::Kind::kExcavation) table.take("slope_deg", slope_deg, {1.0, 89.0});
+    edit.slope_rad = slope_deg * kRadPerDeg;
+    table.finish();
+    position.resize(2, 0.0);
+    edit.site = {position[0], position[1]};
+    return edit;
 }
 
 BuildingSource read_buildings(const toml::value& value, Reading& reading) {
@@ -131,7 +165,7 @@ StartPose read_start(const toml::value& value, Reading& reading) {
     double fov_deg = 60.0, time_s = 0.0;
     table.take("camera", camera, 6, 6);
     table.take("fov_deg", fov_deg, {0.01, 170.0});
-    table.take("time_s", time_s, {-1e9, 4e9});
+    table.take("time_s", time_s, kTime);
     if (table.has("time_s")) start.time_s = time_s;
     table.finish();
     start.fov_y_rad = fov_deg * kRadPerDeg;
@@ -174,8 +208,8 @@ TimeSpan read_time(const toml::value& value, Reading& reading) {
     TomlTable table(value, "[time]", reading.problem);
     TimeSpan time;
     double end_s = 0.0;
-    table.take("begin_s", time.begin_s, {-1e9, 4e9});
-    table.take("end_s", end_s, {-1e9, 4e9});
+    table.take("begin_s", time.begin_s, kTime);
+    table.take("end_s", end_s, kTime);
     if (table.has("end_s")) time.end_s = end_s;
     if (time.end_s && *time.end_s <= time.begin_s)
         table.reject("end_s", "is not after begin_s, expected a later time");
@@ -190,6 +224,10 @@ Scene read_root(const toml::value& root, Reading& reading) {
     scene.name = std::filesystem::path(scene.file).stem().string();
     table.take("name", scene.name);
     if (const auto* value = table.take_table("terrain")) scene.terrain = read_terrain(*value, reading);
+    for (const auto* value : table.take_tables("edits"))
+        scene.edits.push_back(read_edit(*value, reading));
+    if (!scene.edits.empty() && !scene.terrain)
+        table.reject("edits", "have no ground to change, expected a [terrain] beside them");
     for (const auto* value : table.take_tables("buildings"))
         scene.buildings.push_back(read_buildings(*value, reading));
     for (const auto* value : table.take_tables("objects"))

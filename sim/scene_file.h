@@ -35,6 +35,20 @@ struct ObjectSource {
     int line = 0;  ///< in the scene file
 };
 
+/// [[edits]]: relief that changes at a time, in the order of times, then as listed.
+struct EditSource {
+    enum class Kind : uint8_t { kCrater, kExcavation, kRaster };
+    Kind kind = Kind::kCrater;
+    std::string source;      ///< kRaster: heights that replace the terrain's
+    glm::dvec2 site{0.0};    ///< else: longitude and latitude in degrees, or CRS x and y
+    double radius_m = 0.0;   ///< of the rim's crest, or of the floor; > 0
+    double depth_m = 0.0;    ///< below the ground
+    double rim_m = 0.0;      ///< kCrater: above the ground
+    double slope_rad = 0.0;  ///< kExcavation: of the sides
+    double time_s = 0.0;     ///< in force from then on
+    int line = 0;            ///< in the scene file
+};
+
 /// [[models]]: stands on the ground.
 struct ModelSource {
     std::string source;
@@ -87,6 +101,7 @@ struct Scene {
     std::string file;
     std::string name;
     std::optional<TerrainSource> terrain;
+    std::vector<EditSource> edits;  ///< with terrain only
     std::vector<BuildingSource> buildings;
     std::vector<ObjectSource> objects;
     std::vector<ModelSource> models;

@@ -163,6 +163,14 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
     return stage;
 }
 
+void bring_relief_to(Stage& stage, double time_s) {
+    World& world = *stage.world;
+    const size_t before = world.relief.in_force;
+    for (const TimedEdit* edit : bring_relief_to(world, time_s))
+        stage.renderer.write_ground_texels(before < world.relief.in_force ? edit->colours
+                                                                          : edit->colours_before);
+}
+
 lod::View view_of(const World& world, const Optics& optics, const EyeState& state, const HeadPose& head) {
     lod::View view;
     view.fov_y_rad = optics.fov_y_rad;
@@ -194,6 +202,7 @@ lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowa
     record.time_s = shot.time_s;
     const Stopwatch total;
 
+    bring_relief_to(stage, shot.schedule_s);
     const lod::View view = view_of(world, stage.optics, shot.state, shot.head);
     const glm::dvec3 up_world = world.frame.world_from_enu(view.eye_world)[2];
     move_instruments(world, shot);

@@ -61,6 +61,10 @@ struct Stage {
 /// Makes the renderer with a pool that holds what the fronts say they need now, and hands it the ground's colours.
 lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, bool window);
 
+/// The world's ground at a time, and the renderer's colours of it. make_frame does this itself; whoever asks the
+/// ground before, as paths over it do, does it first.
+void bring_relief_to(Stage& stage, double time_s);
+
 /// The view of a state of flight with a moved head.
 lod::View view_of(const World& world, const Optics& optics, const EyeState& state, const HeadPose& head);
 

@@ -46,7 +46,15 @@ lod::Result<lod::Ok> build_paged_terrain(World& world, const WorldOptions& optio
 
 lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
     const TerrainSource& source = *world.scene.terrain;
-    if (names_store(source)) return build_paged_terrain(world, options);
+    if (names_store(source)) {
+        if (!world.scene.edits.empty()) {
+            return lod::Error{
+                fmt::format("{}:{}: [[edits]] of a terrain store, which is only read; expected rasters as "
+                            "[terrain] sources",
+                            world.scene.file, world.scene.edits.front().line)};
+        }
+        return build_paged_terrain(world, options);
+    }
     const Stopwatch watch;
     data::HeightGridOptions reading;
     reading.voids = source.voids;
@@ -82,6 +90,16 @@ lod::Result<std::vector<data::Street>> read_all_streets(const World& world) {
     return all;
 }
 
+lod::Result<lod::Ok> plan_edits(World& world, const GroundPaint* paint, unsigned threads) {
+    if (world.scene.edits.empty()) return lod::Ok{};
+    const Stopwatch watch;
+    lod::Result<ReliefTimeline> relief = plan_relief(world.scene, *world.ground, paint, threads);
+    if (!relief) return relief.error();
+    world.relief = std::move(*relief);
+    say_progress(fmt::format("edits: {} made ready in {:.1f} s", world.relief.edits.size(), watch.seconds()));
+    return lod::Ok{};
+}
+
 lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
     const Stopwatch watch;
     const lod::Result<std::vector<data::Street>> streets = read_all_streets(world);
@@ -98,10 +116,20 @@ lod::Result<lod::Ok> paint_terrain(World& world, const WorldOptions& options) {
     painting.threads = options.threads;
     painting.streets = *streets;
     world.ground_colours = paint_ground(*world.ground, imagery, painting);
+    const GroundPaint paint{imagery, painting, world.ground_colours};
+    if (auto planned = plan_edits(world, &paint, options.threads); !planned) return planned.error();
     say_progress(fmt::format("ground: {} x {} texels with {} streets painted in {:.1f} s",
                              world.ground_colours.width, world.ground_colours.height, streets->size(),
                              watch.seconds()));
     return lod::Ok{};
+}
+
+void find_ground(StandingBuildings& buildings, const data::HeightGrid& ground) {
+    buildings.ground.reserve(buildings.sites.size());
+    for (const objects::BuildingSite& site : buildings.sites) {
+        buildings.ground.push_back(
+            objects::ground_under(buildings.footprints.buildings[site.footprint], ground));
+    }
 }
 
 lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, ModelParts& objects) {
@@ -111,11 +139,13 @@ lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, M
     lod::Result<data::Footprints> footprints = data::read_footprints(source.source, world.frame, reading);
     if (!footprints) return footprints.error();
     objects::Buildings built = objects::build_buildings(*footprints, world.ground.get(), world.frame, {});
+    const auto first_part = static_cast<uint32_t>(objects.parts.size());
+    const size_t first_base = world.buildings.size();
     for (lod::RigidPart& part : built.parts)
         objects.parts.push_back(std::move(part));
     for (const objects::BuildingSite& site : built.sites)
         world.buildings.push_back(site.base_world);
-    const data::FootprintStats& stats = footprints->stats;
+    const data::FootprintStats stats = footprints->stats;
     if (stats.skipped + built.off_terrain > 0) {
         world.notes.push_back(
             fmt::format("{}: {} buildings are beyond repair and {} off the terrain, not built", source.source,
@@ -126,6 +156,11 @@ lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, M
         "in {:.1f} s",
         built.sites.size(), stats.read, stats.repaired, stats.skipped, built.off_terrain, stats.by_default,
         watch.seconds()));
+    if (!world.scene.edits.empty()) {
+        world.standing_buildings.push_back(
+            {std::move(*footprints), std::move(built.sites), {}, first_part, first_base});
+        find_ground(world.standing_buildings.back(), *world.ground);
+    }
     return lod::Ok{};
 }
 
@@ -143,14 +178,19 @@ lod::Result<data::PolygonMesh> read_model(World& world, const std::string& path)
     return mesh;
 }
 
+lod::BodyPose standing_pose(const World& world, const ModelSource& source) {
+    data::SitePoint site{source.site.x, source.site.y, 0.0};
+    site.height_m = ground_height_m(world, site) + source.height_m;
+    return placed_pose(world.frame, site, source.heading_rad, source.scale);
+}
+
 lod::Result<lod::Ok> add_model(World& world, const ModelSource& source, ModelParts& objects) {
     lod::Result<data::PolygonMesh> mesh = read_model(world, source.source);
     if (!mesh) return mesh.error();
-    data::SitePoint site{source.site.x, source.site.y, 0.0};
-    site.height_m = ground_height_m(world, site) + source.height_m;
-    const lod::BodyPose pose = placed_pose(world.frame, site, source.heading_rad, source.scale);
+    const lod::BodyPose pose = standing_pose(world, source);
     lod::Result<ModelParts> parts = make_model_parts(*mesh, pose, {});
     if (!parts) return lod::Error{source.source + ": " + parts.message()};
+    world.standing_models.push_back({source, static_cast<uint32_t>(objects.bodies.size())});
     append_model(*parts, objects);
     return lod::Ok{};
 }
@@ -195,6 +235,24 @@ lod::Result<lod::Ok> build_instruments(World& world) {
     return lod::Ok{};
 }
 
+/// Buildings and models to the ground as it is now.
+void settle_objects(World& world, const data::SampleRange& changed) {
+    const objects::Ground ground{world.ground.get(), world.frame};
+    std::vector<lod::Vertex> vertices;
+    for (StandingBuildings& standing : world.standing_buildings) {
+        for (size_t i = 0; i < standing.sites.size(); ++i) {
+            if (data::common(standing.ground[i], changed).is_empty()) continue;
+            objects::BuildingSite& site = standing.sites[i];
+            objects::rebuild_building(standing.footprints.buildings[site.footprint], ground, {}, site,
+                                      vertices);
+            world.objects->rewrite(standing.first_part + site.part, site.first_vertex, vertices);
+            world.buildings[standing.first_base + i] = site.base_world;
+        }
+    }
+    for (const StandingModel& model : world.standing_models)
+        world.objects->set_pose(model.body, standing_pose(world, model.source));
+}
+
 /// The place whose east, north and up the sun's direction is given in.
 glm::dvec3 middle_of(const World& world) {
     if (!world.ground) return world.frame.world_from_site(world.scene.start.site);
@@ -224,13 +282,30 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
     world->eyepoint = std::move(*eyepoint);
     if (auto built = build_objects(*world); !built) return built.error();
     if (auto built = build_instruments(*world); !built) return built.error();
-    if (scene.terrain && options.has_picture) {
-        if (auto painted = paint_terrain(*world, options); !painted) return painted.error();
+    if (scene.terrain) {
+        auto painted = options.has_picture ? paint_terrain(*world, options)
+                                           : plan_edits(*world, nullptr, options.threads);
+        if (!painted) return painted.error();
     }
     world->sun_world = world->frame.world_from_enu(middle_of(*world)) * kSunEnu;
     for (const std::string& note : world->notes)
         say_note(note);
     return world;
+}
+
+std::vector<const TimedEdit*> bring_relief_to(World& world, double time_s) {
+    std::vector<const TimedEdit*> changed;
+    const size_t due = edits_at(world.relief, time_s);
+    while (world.relief.in_force != due) {
+        const bool forward = world.relief.in_force < due;
+        const TimedEdit& edit = step_relief(world.relief, *world.ground, forward);
+        world.terrain->edit({*world.ground, world.relief.extremes, edit.block.range});
+        settle_objects(world, edit.block.range);
+        if (world.ground_colours.width > 0)
+            put_texels(forward ? edit.colours : edit.colours_before, world.ground_colours);
+        changed.push_back(&edit);
+    }
+    return changed;
 }
 
 std::vector<WorldFront> fronts_of(const World& world) {

@@ -11,12 +11,15 @@
 #include "data/image.h"
 #include "lod/base/result.h"
 #include "lod/rigid_front.h"
+#include "objects/buildings.h"
 #include "objects/cluster_front.h"
 #include "render/renderer.h"
 #include "sim/eyepoint.h"
 #include "sim/model_pose.h"
+#include "sim/relief_timeline.h"
 #include "sim/scene_file.h"
 #include "sim/signals.h"
+#include "terrain/roam_front.h"
 
 namespace sim {
 
@@ -39,6 +42,21 @@ struct Cockpit {
         poses;  ///< [bodies], in the cockpit's frame, needles where the last signals put them
 };
 
+/// Buildings of one source that stand on ground that will change.
+struct StandingBuildings {
+    data::Footprints footprints;
+    std::vector<objects::BuildingSite> sites;
+    std::vector<data::SampleRange> ground;  ///< [sites]: what each stands on
+    uint32_t first_part = 0;                ///< in the front of objects
+    size_t first_base = 0;                  ///< in World::buildings
+};
+
+/// A model that stands on the ground.
+struct StandingModel {
+    ModelSource source;
+    uint32_t body = 0;  ///< in the front of objects
+};
+
 /// Move-only; fronts refer to the ground, which keeps its address.
 struct World {
     Scene scene;
@@ -46,13 +64,16 @@ struct World {
     std::unique_ptr<data::HeightGrid> ground;  ///< null without [terrain], as all below
     int ground_stride =
         1;  ///< the drawn terrain has this many samples to one of `ground`'s (paged_terrain.h)
-    std::unique_ptr<lod::Front> terrain;
+    std::unique_ptr<terrain::RoamFront> terrain;
     std::unique_ptr<lod::RigidFront> objects;
     std::vector<std::unique_ptr<objects::ClusterFront>> sites;  ///< of [[objects]], as the scene lists them
     std::unique_ptr<lod::RigidFront> instruments;
     Cockpit cockpit;
     Eyepoint eyepoint;
     data::Image ground_colours;  ///< empty without terrain or picture; not needed once a renderer has them
+    ReliefTimeline relief;       ///< the scene's edits; none: nothing below is kept
+    std::vector<StandingBuildings> standing_buildings;
+    std::vector<StandingModel> standing_models;
     glm::dvec3 sun_world{0.0, 0.0, 1.0};
     std::vector<glm::dvec3> buildings;  ///< one corner of each building's base, world
     uint32_t item_count = 0;            ///< draw items of objects and instruments, at most
@@ -73,6 +94,11 @@ struct WorldFront {
 
 /// The fronts there are, in the order of lod::Module.
 std::vector<WorldFront> fronts_of(const World& world);
+
+/// The ground, and all that rests on it, at a time: puts edits in force or takes them back. Where none is due, nothing
+/// happens. @returns the edits that changed sides, in this order; the renderer has yet to get their colours
+/// Cost: that of RoamFront::edit for each, and of the buildings over it.
+std::vector<const TimedEdit*> bring_relief_to(World& world, double time_s);
 
 /// What needles show at a state of flight.
 Signals signals_of(const World& world, const EyeState& state, double time_s);

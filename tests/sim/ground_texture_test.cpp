@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "data/fractal_grid.h"
 #include "lod/base/rng.h"
 #include "sim/relief.h"
 #include "sim/street_cover.h"
@@ -227,6 +228,53 @@ TEST(Relief, ShoreDistanceGrowsOutToSea) {
     EXPECT_EQ(shore(270), 9);
     EXPECT_EQ(shore(3), 254);
     EXPECT_TRUE(sim::measure_relief(rough_grid(10, 10), 1).shore.empty());
+}
+
+/// After an edit the changed samples' texels, and those their land shades, are what a painting from scratch makes of
+/// them; nothing outside the returned rectangle is touched.
+TEST(GroundRepaint, IsThePaintingFromScratchWhereItMatters) {
+    for (const int max_px : {8192, 100}) {  // finer and coarser than the samples
+        sim::GroundTextureOptions options;
+        options.detail_px = 600;
+        options.max_px = max_px;
+        data::HeightGrid grid = data::fractal_grid(201, 150, kSpacing_m, 300.0, 4);
+        for (float& height : grid.height_m)
+            height += 400.0f;
+        grid.max_m += 400.0f;
+        grid.min_m += 400.0f;
+        data::Image image = sim::paint_ground(grid, {}, options);
+        const data::Image before = image;
+        data::HeightBlock block = data::make_block(
+            grid,
+            data::Crater{.centre_grid = {90.0, 70.0}, .radius_m = 300.0, .depth_m = 80.0, .rim_m = 60.0});
+        data::exchange(grid, block);
+        const sim::TexelRect rect = sim::repaint_ground(grid, {}, options, block, image);
+        const data::Image anew = sim::paint_ground(grid, {}, options);
+        const double texels = double(image.width) / grid.width;
+        int changed = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const size_t at = (size_t(y) * size_t(image.width) + size_t(x)) * 4;
+                const bool is_in =
+                    x >= rect.x && x < rect.x + rect.width && y >= rect.y && y < rect.y + rect.height;
+                const bool is_changed_ground =
+                    x > block.range.min.x * texels && x < block.range.max.x * texels &&
+                    y > block.range.min.y * texels && y < block.range.max.y * texels;
+                ASSERT_TRUE(is_in || !is_changed_ground);
+                for (size_t c = 0; c < 4; ++c) {
+                    if (is_in) {
+                        ASSERT_NEAR(image.rgba[at + c], anew.rgba[at + c], 1) << x << ", " << y;
+                    } else {
+                        ASSERT_EQ(image.rgba[at + c], before.rgba[at + c]) << x << ", " << y;
+                        // Prominence of the land around is not painted again: small.
+                        ASSERT_NEAR(image.rgba[at + c], anew.rgba[at + c], 12) << x << ", " << y;
+                    }
+                    changed += std::abs(image.rgba[at + c] - before.rgba[at + c]) > 20 ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_GT(changed, 50);
+    }
 }
 
 }  // namespace

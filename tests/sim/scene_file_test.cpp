@@ -128,6 +128,15 @@ const BadScene kBadScenes[] = {
      "[[models]]\nsource = \"a\"\nposition = [1, 2]\n[[models]]\nsource = \"b\"\n"
      "position = [1, 2]\nheight = 3\n",
      7, "\"height\""},
+    {"UnknownKeyInEdit",
+     "[terrain]\nsources = [\"a\"]\n[[edits]]\nkind = \"crater\"\nposition = [1, 2]\nradius_m = 5\n"
+     "depth_m = 2\ntime_s = 1\nslope_deg = 30\n",
+     9, "\"slope_deg\""},
+    {"EditWithoutTime", "[terrain]\nsources = [\"a\"]\n[[edits]]\nkind = \"raster\"\nsource = \"b\"\n", 3,
+     "time_s"},
+    {"UnknownKindOfEdit", "[terrain]\nsources = [\"a\"]\n[[edits]]\nkind = \"hole\"\ntime_s = 1\n", 4,
+     "crater"},
+    {"EditWithoutTerrain", "[[edits]]\nkind = \"raster\"\nsource = \"b\"\ntime_s = 1\n", 1, "[terrain]"},
     {"UnknownTopKey", "title = \"a\"\n", 1, "title"},
     {"TerrainIsNoTable", "terrain = 3\n", 1, "terrain"},
     {"TerrainWithoutSources", "name = \"x\"\n[terrain]\nvoids = \"fill\"\n", 2, "sources"},
