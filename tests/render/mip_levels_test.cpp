@@ -19,6 +19,15 @@ std::vector<uint8_t> noise(int width, int height, uint64_t seed) {
     return rgba;
 }
 
+render::MippedPicture mipped(int width, int height, const std::vector<uint8_t>& rgba) {
+    render::MippedPicture picture;
+    picture.full.width = width;
+    picture.full.height = height;
+    picture.full.rgba = rgba;
+    picture.smaller = render::make_mip_levels(width, height, rgba);
+    return picture;
+}
+
 /// Mean of a channel over [x0, x1) x [y0, y1) of the picture, in parts of texels.
 double area_mean(const std::vector<uint8_t>& rgba, int width, const std::array<double, 4>& area,
                  int channel) {
@@ -63,8 +72,7 @@ TEST(MipLevels, APartBroughtUpToDateIsTheWholeMadeAnew) {
     for (int round = 0; round < 200; ++round) {
         const int width = 1 + below(70), height = 1 + below(70);
         const std::vector<uint8_t> before = noise(width, height, uint64_t(round));
-        render::MippedPicture picture{{width, height, before},
-                                      render::make_mip_levels(width, height, before)};
+        render::MippedPicture picture = mipped(width, height, before);
         render::TexelPatch rect{0, below(width), below(height), 0, 0, {}};
         rect.width = 1 + below(width - rect.x);
         rect.height = 1 + below(height - rect.y);
@@ -89,7 +97,7 @@ TEST_F(RendererTest, ReplacedTexelsAreDrawn) {
     RENDERER_OR_SKIP(renderer, 96, 96);
     constexpr int kGrid = 65;
     const std::vector<uint8_t> before = noise(kGrid, kGrid, 1);
-    render::MippedPicture picture{{kGrid, kGrid, before}, render::make_mip_levels(kGrid, kGrid, before)};
+    render::MippedPicture picture = mipped(kGrid, kGrid, before);
     render::TexelPatch rect{0, 20, 25, 30, 17, {}};
     for (int y = rect.y; y < rect.y + rect.height; ++y) {
         for (int x = rect.x * 4; x < (rect.x + rect.width) * 4; ++x)
