@@ -1,5 +1,6 @@
 // The front over ground that has changed: vertices to their new places, what they rest on evaluated anew.
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "lod/base/check.h"
@@ -75,6 +76,8 @@ void RoamFront::list_touched(const data::SampleRange& range, std::vector<Diamond
 void RoamFront::take_facts(DiamondIndex index, const DiamondSource& now, FrontEditCounts& counts) {
     ++counts.records;
     const float before_m = std::exchange(ranks_[index].source, now).height_m;
+    // What was said of a record in no queue holds no longer.
+    if (!is_queued(index)) wake_m_[index] = wake_rad_[index] = std::numeric_limits<float>::infinity();
     if (before_m == now.height_m) return;
     if (index >= kCornerCount && !mesh_[index].is_split) return;
     DiamondSource before = now;
