@@ -42,7 +42,7 @@ const char* const kHouses = R"({"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"building":"yes","height":9},"geometry":{"type":"Polygon",
 "coordinates":[[[700,100],[720,100],[720,120],[700,120],[700,100]]]}}]})";
 
-class Relief : public testing::Test {
+class ReliefInTime : public testing::Test {
   protected:
     void SetUp() override {
         folder_.write("relief.asc", sim_test::small_relief());
@@ -51,7 +51,7 @@ class Relief : public testing::Test {
     std::unique_ptr<sim::World> build(const std::string& text) const {
         const auto scene = sim::read_scene(folder_.write("scene.toml", text));
         EXPECT_TRUE(scene) << scene.message();
-        auto world = sim::build_world(*scene, {.tolerance_px = 1.0, .threads = 2});
+        auto world = sim::build_world(*scene, {});
         EXPECT_TRUE(world) << world.message();
         return world ? std::move(*world) : nullptr;
     }
@@ -86,7 +86,7 @@ std::vector<uint8_t> bytes_of(const std::vector<lod::Vertex>& vertices) {
     return {first, first + vertices.size() * sizeof(lod::Vertex)};
 }
 
-TEST_F(Relief, IsAFunctionOfTime) {
+TEST_F(ReliefInTime, IsAFunctionOfTime) {
     const auto world = build(kScene);
     ASSERT_TRUE(world);
     const data::HeightGrid before = *world->ground;
@@ -123,7 +123,7 @@ TEST_F(Relief, IsAFunctionOfTime) {
     EXPECT_EQ(world->terrain->validate(), "");
 }
 
-TEST_F(Relief, BuildingsSettleWithTheirGround) {
+TEST_F(ReliefInTime, BuildingsSettleWithTheirGround) {
     const auto world = build(kScene);
     ASSERT_TRUE(world);
     std::vector<lod::Vertex> before, after;
@@ -146,13 +146,13 @@ TEST_F(Relief, BuildingsSettleWithTheirGround) {
     EXPECT_EQ(bytes_of(after), bytes_of(expected));
     size_t moved = 0;
     for (size_t i = 0; i < before.size(); ++i)
-        moved += lod::position_of(before[i]) != lod::position_of(after[i]) ? 1 : 0;
+        moved += lod::position_of(before[i]) != lod::position_of(after[i]) ? 1u : 0u;
     EXPECT_GT(moved, 8u);
     EXPECT_LT(moved, before.size());
 }
 
 /// A front that was taken through all edits draws, once converged, ground as true as it says.
-TEST_F(Relief, WhatIsDrawnIsTheGroundOfThatTime) {
+TEST_F(ReliefInTime, WhatIsDrawnIsTheGroundOfThatTime) {
     const auto world = build(kScene);
     ASSERT_TRUE(world);
     sim::bring_relief_to(*world, 15.0);
@@ -164,7 +164,7 @@ TEST_F(Relief, WhatIsDrawnIsTheGroundOfThatTime) {
     }
 }
 
-TEST_F(Relief, RefusesWhatItCannotDo) {
+TEST_F(ReliefInTime, RefusesWhatItCannotDo) {
     std::string far = kScene;
     far.replace(far.find("[480, 410]"), 10, "[9e6, 410]");
     const auto scene = sim::read_scene(folder_.write("far.toml", far));
@@ -181,7 +181,7 @@ TEST_F(Relief, RefusesWhatItCannotDo) {
 
 /// From outside: a picture at a time after the crater differs from one before, and one taken without edits is the
 /// one before.
-TEST_F(Relief, StillShowsItsTime) {
+TEST_F(ReliefInTime, StillShowsItsTime) {
     if (!sim_test::has_program()) GTEST_SKIP() << "harrier is not built in " HARRIER_BINARY_DIR;
     const std::string scene = folder_.write("scene.toml", kScene);
     const std::string plain(kScene, std::string(kScene).find("[[edits]]"));
