@@ -1,6 +1,5 @@
 // The front over ground that has changed: vertices to their new places, what they rest on evaluated anew.
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "lod/base/check.h"
@@ -28,6 +27,7 @@ bool meets(const data::SampleRange& range, GridPoint centre, int reach) {
 
 FrontEditCounts RoamFront::edit(const GroundEdit& edit) {
     CHECK(!loader_);
+    ask_all();  // candidates not yet asked hold no facts
     FrontEditCounts counts;
     counts.table = edit_table(edit, table_, options_.threads);
     if (edit.changed.is_empty()) return counts;
@@ -77,7 +77,7 @@ void RoamFront::take_facts(DiamondIndex index, const DiamondSource& now, FrontEd
     ++counts.records;
     const float before_m = std::exchange(ranks_[index].source, now).height_m;
     // What was said of a record in no queue holds no longer.
-    if (!is_queued(index)) wake_m_[index] = wake_rad_[index] = std::numeric_limits<float>::infinity();
+    if (!is_queued(index)) wake_m_[index] = wake_rad_[index] = kNever;
     if (before_m == now.height_m) return;
     if (index >= kCornerCount && !mesh_[index].is_split) return;
     DiamondSource before = now;
