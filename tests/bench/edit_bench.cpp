@@ -73,7 +73,12 @@ void Adapt(benchmark::State& state) {
         range.adapt();
     }
 }
-BENCHMARK(Adapt)->Arg(1025)->Arg(4097)->Unit(benchmark::kMillisecond)->Iterations(20)->MeasureProcessCPUTime();
+BENCHMARK(Adapt)
+    ->Arg(1025)
+    ->Arg(4097)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(20)
+    ->MeasureProcessCPUTime();
 
 /// What an edit replaces: the whole table anew.
 void Anew(benchmark::State& state) {
