@@ -35,7 +35,7 @@ struct FamilyOptions {
 
 /// Exactly `objects` objects of exactly `triangles` triangles each, over at most eight shared meshes; cells are 4 m wide,
 /// the ground is z = 0. Events lie within (0, T). CHECKs the ranges above.
-/// Deterministic. Cost: O(n log n); a million objects in about a second and 250 MB (docs/objects.md).
+/// Deterministic. Cost: O(n log n); a million objects in half a second and 210 MB (docs/objects.md).
 TimedScene generate_family(const FamilyOptions& options);
 
 }  // namespace data

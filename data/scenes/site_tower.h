@@ -5,7 +5,7 @@
 
 namespace data::site {
 
-/// Two storeys of structure below ground, 70 storeys with all their trades, the roof, its screen and a spire.
+/// Two storeys of structure below ground, 57 storeys with all their trades, the roof, its screen and a spire.
 void add_tower(SceneBuilder& builder);
 
 }  // namespace data::site

@@ -1,46 +1,28 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <assimp/Importer.hpp>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "data/object_plan.h"
-#include "data/scene_time.h"
 #include "data/scenes/construction_site.h"
 #include "data/scenes/scene_family.h"
 #include "data/schedule_csv.h"
 #include "data/timed_glb.h"
 #include "data/timed_scene_file.h"
+#include "tests/data/timed_folder.h"
 
 namespace data {
 namespace {
 
-/// A folder of its own that goes away.
-class Interchange : public ::testing::Test {
+class Interchange : public TimedFolder {
   protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("harrier_interchange_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::string write(const std::string& name, std::string_view bytes) {
-        const std::string path = (folder_ / name).string();
-        std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        return path;
-    }
     /// The scene as a GLB with its schedule beside it.
     std::string write_scene(const TimedScene& scene) {
         const std::vector<char> glb = timed_glb_bytes(scene);
         write("scene.csv", schedule_csv(scene));
         return write("scene.glb", {glb.data(), glb.size()});
     }
-
-    std::filesystem::path folder_;
 };
 
 /// All corners of an object's triangles in their order, at home in the object's frame.
