@@ -1,10 +1,7 @@
 // The .hpm file: a ProgressiveModel as bytes.
 //
-//     preamble    name, version, length, checksum of all that follows
-//     model       file_from_model, nodes, parts; a part: node, glass, report, the hierarchy's arrays as they lie in
-//                 memory, each behind its length
-//
-// Little-endian. Whatever is cut, flipped or from elsewhere is told before it is used.
+//     preamble    sealed_bytes.h: name HarrierM, version 1
+//     model       file_from_model, nodes, parts; a part: node, glass, report, the hierarchy's arrays
 #pragma once
 
 #include <cstdint>
