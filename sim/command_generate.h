@@ -27,7 +27,7 @@ struct ConvertArguments {
 
 void add_convert(CLI::App& app, ConvertArguments& arguments);
 
-/// The same for a scene that data::read_timed_scene reads.
+/// The same for a scene that objects::read_timed_scene reads.
 lod::Result<lod::Ok> run_convert(const ConvertArguments& arguments);
 
 }  // namespace sim

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include "data/ground_height.h"
 #include "data/object_plan.h"
 #include "data/scene_time.h"
 
@@ -81,6 +83,31 @@ TEST(BuildingScene, WallsStandOnTheGround) {
             ASSERT_GE(glm::dot(normal, mesh.normals[triangle[0]]), 0.0f) << object.id;
         }
     }
+}
+
+/// On terrain every building's base lies on the source ground, whatever the scene frame is.
+TEST(BuildingScene, BuildingsStandOnTheTerrain) {
+    const std::string path = shared_data("monaco/monaco-2021.osm.pbf"),
+                      relief = shared_data("monaco/N43E007.hgt.zip");
+    if (!std::filesystem::exists(relief)) GTEST_SKIP() << relief << " is not there";
+    const auto grid = data::read_height_grid({relief}, {});
+    ASSERT_TRUE(grid) << grid.message();
+    const auto scene = read_timed_scene(path, {}, {.world = {}, .grid = &*grid});
+    ASSERT_TRUE(scene) << scene.message();
+    EXPECT_GT(scene->objects.size(), 1000u);
+    const data::WorldFrame world;
+    const glm::dvec3& origin = scene->origin_site;
+    const glm::dvec3 origin_world = world.world_from_site({origin.x, origin.y, origin.z});
+    const glm::dmat3 world_from_enu = world.world_from_enu(origin_world);
+    double lowest_m = 1e9, highest_m = -1e9;
+    for (const data::TimedObject& object : scene->objects) {
+        const glm::dvec3 base = data::keys_of(*scene, object)[0].position;
+        const data::SitePoint site = world.site_from_world(origin_world + world_from_enu * base);
+        EXPECT_NEAR(site.height_m, data::ground_height(*grid, site).height_m, 0.01) << object.id;
+        lowest_m = std::min(lowest_m, site.height_m);
+        highest_m = std::max(highest_m, site.height_m);
+    }
+    EXPECT_GT(highest_m - lowest_m, 50.0) << "Monaco is steep";
 }
 
 TEST(BuildingScene, AScheduleOfACityNamesItsBuildings) {
