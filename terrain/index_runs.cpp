@@ -88,18 +88,22 @@ IndexRuns::Built IndexRuns::build(const Work& work, const BintreeTriangle& trian
     return {0, first.count + second.count, pair};
 }
 
-/// What hung below a node is gone.
-void IndexRuns::retire(const RunNode& node) {
-    if (node.is_run()) return;
-    retire(nodes_[node.children]);
-    retire(nodes_[node.children + 1]);
+/// What was drawn of a node is gone, and what hung below it.
+void IndexRuns::retire(const Work& work, const RunNode& node) {
+    if (node.is_run()) {
+        const bool is_placed = node.fresh == RunNode::kPlaced;
+        const std::span<const uint32_t> all(is_placed ? list_ : fresh_);
+        return work.writer.release(all.subspan(is_placed ? node.first : node.fresh, node.count));
+    }
+    retire(work, nodes_[node.children]);
+    retire(work, nodes_[node.children + 1]);
     free_pairs_.push_back(node.children);
 }
 
 void IndexRuns::rebuild(const Work& work, uint32_t id) {
     const RunNode old = nodes_[id];
     const Built built = build(work, old.triangle);
-    retire(old);
+    retire(work, old);
     RunNode& node = nodes_[id];
     node = node_of(work, old.triangle, built);
     node.first = old.first;
@@ -109,13 +113,17 @@ void IndexRuns::rebuild(const Work& work, uint32_t id) {
 
 void IndexRuns::rebuild_all(const Work& work) {
     is_all_marked_ = false;
+    work.writer.patches.clear();
+    fresh_.clear();
     nodes_.resize(2);
     free_pairs_.clear();
     for (int half = 0; half < 2; ++half) {
         const BintreeTriangle root = root_triangle(work.mesh, half);
         const Built built = build(work, root);
         nodes_[static_cast<size_t>(half)] = node_of(work, root, built);
+        nodes_[static_cast<size_t>(half)].lacks_room = true;
     }
+    CHECK(!work.writer.patches.is_overfull());
 }
 
 /// Bottom-up over what is stale: contents first, then their places.
@@ -141,19 +149,20 @@ void IndexRuns::refresh(const Work& work, uint32_t id) {
 void IndexRuns::update(const DiamondMesh& mesh, const LeafWriter& writer) {
     DCHECK(&writer.indices == &fresh_);
     const Work work{mesh, writer};
+    writer.patches.begin();
     fresh_.clear();
     changed_.clear();
     mark_count_ = 0;
-    if (is_all_marked_) {
-        rebuild_all(work);
-        make_room_for_all();
-    } else {
-        if (!nodes_[0].is_stale && !nodes_[1].is_stale) return;
+    if (!is_all_marked_ && !nodes_[0].is_stale && !nodes_[1].is_stale) return;
+    if (!is_all_marked_) {
         refresh(work, 0);
         refresh(work, 1);
-        const uint32_t count = nodes_[0].count + nodes_[1].count, room = nodes_[0].room + nodes_[1].room;
-        if (nodes_[0].lacks_room || nodes_[1].lacks_room || room > 2 * count + kMost) make_room_for_all();
     }
+    // For a while there are vertices of what goes beside those of what comes: alone they fit.
+    if (is_all_marked_ || writer.patches.is_overfull()) rebuild_all(work);
+    const uint32_t count = nodes_[0].count + nodes_[1].count, room = nodes_[0].room + nodes_[1].room;
+    if (nodes_[0].lacks_room || nodes_[1].lacks_room || room > 2 * count + kMost) make_room_for_all();
+    writer.patches.sweep();
     put_below(0);
     put_below(1);
 }

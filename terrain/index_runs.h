@@ -88,7 +88,7 @@ class IndexRuns {
     void rebuild(const Work& work, uint32_t id);
     void rebuild_all(const Work& work);
     void refresh(const Work& work, uint32_t id);
-    void retire(const RunNode& node);
+    void retire(const Work& work, const RunNode& node);
     uint32_t add_pair();
 
     void make_room(uint32_t id);

@@ -1,37 +1,15 @@
-// LeafCover: which triangles are drawn at all: not those squeezed to nothing beyond the raster, not holes.
+// Which triangles cover anything: vertices beyond the raster are clamped to its border, which squeezes some to nothing.
 #pragma once
 
-#include <span>
-
-#include "terrain/bintree_triangle.h"
-#include "terrain/diamond_rank.h"
+#include "terrain/triangle_error.h"
 
 namespace terrain {
 
-struct LeafCover {
-    const DiamondTable& table;
-    const DiamondMesh& mesh;
-    std::span<const DiamondRank> ranks;  ///< [record]
-
-    bool is_drawn(const BintreeTriangle& leaf) const {
-        if (is_squeezed(mesh[leaf.apex].centre(), mesh[leaf.left].centre(), mesh[leaf.right].centre()))
-            return false;
-        if (!table.has_voids) return true;
-        if (leaf.diamond == kOutside)
-            return !is_void(leaf.apex) && !is_void(leaf.left) && !is_void(leaf.right);
-        return !ranks[leaf.diamond].source.is_half_empty(mesh[leaf.diamond].apex_dir + 4 * leaf.half);
-    }
-
-  private:
-    bool is_squeezed(GridPoint a, GridPoint b, GridPoint c) const {
-        const Domain& domain = table.domain;
-        if (domain.in_raster(a) && domain.in_raster(b) && domain.in_raster(c)) return false;
-        a = domain.clamped(a);
-        b = domain.clamped(b);
-        c = domain.clamped(c);
-        return int64_t(b.x - a.x) * (c.y - a.y) == int64_t(c.x - a.x) * (b.y - a.y);
-    }
-    bool is_void(DiamondIndex index) const { return ranks[index].source.is_void(); }
-};
+/// Whether anything is left of a triangle within the raster.
+inline bool covers_raster(const Domain& domain, const TriangleCorners& t) {
+    if (domain.in_raster(t.apex) && domain.in_raster(t.left) && domain.in_raster(t.right)) return true;
+    const GridPoint a = domain.clamped(t.apex), b = domain.clamped(t.left), c = domain.clamped(t.right);
+    return int64_t(b.x - a.x) * (c.y - a.y) != int64_t(c.x - a.x) * (b.y - a.y);
+}
 
 }  // namespace terrain

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lod/base/check.h"
+#include "terrain/batched_errors.h"
 
 namespace terrain {
 namespace {
@@ -18,16 +19,29 @@ constexpr int kClimbMargin = 16;
 /// After a longer pause nobody remembers the last picture.
 constexpr double kLongestFrame_s = 0.5;
 
+/// Patches end where the grid does.
+RoamOptions possible(const Domain& domain, RoamOptions options) {
+    options.batch = std::min(options.batch, domain.log2_side);
+    return options;
+}
+
+DiamondTable batched(DiamondTable table, const RoamOptions& options) {
+    batch_errors(table, possible(table.domain, options).batch, options.threads);
+    return table;
+}
+
 }  // namespace
 
 RoamFront::RoamFront(DiamondTable table, const RoamOptions& options, std::unique_ptr<PageLoader> loader)
-    : table_(std::move(table)),
-      options_(options),
+    : table_(batched(std::move(table), options)),
+      options_(possible(table_.domain, options)),
       scale_(lod::scale_at(options.tolerance_px)),
       bound_of_(table_),
       mesh_(table_.domain),
       loader_(std::move(loader)),
-      glides_(options.glide_s) {
+      glides_(options_.glide_s),
+      tessellator_(options_.batch) {
+    CHECK(options_.batch == 0 || (!loader_ && options_.glide_s == 0.0));
     reset();
 }
 
@@ -35,9 +49,9 @@ void RoamFront::reset() {
     queues_ = {};
     unasked_.clear();
     glides_.clear();
-    leaving_triangles_ = 0;
+    idle_triangles_ = leaving_triangles_ = 0;
     mesh_.clear();
-    mesh_.reserve(options_.reserve_triangles);
+    mesh_.reserve(options_.reserve_triangles >> (2 * options_.batch));
     grow_arrays();
     tessellator_.forget();
     for (DiamondIndex corner = 0; corner < kCornerCount; ++corner) {
@@ -53,7 +67,7 @@ void RoamFront::reset() {
 void RoamFront::grow_arrays() {
     const size_t count = mesh_.record_count();
     if (ranks_.size() >= count) return;
-    const size_t size = std::max<size_t>({count, ranks_.size() * 2, options_.reserve_triangles * 5 / 4 + 64});
+    const size_t size = std::max<size_t>({count, ranks_.size() * 2, most_records()});
     ranks_.resize(size);
     wake_m_.resize(size, kNever);
     wake_rad_.resize(size, kNever);
@@ -141,7 +155,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
-    tessellator_.change(mesh_[index].centre());
+    note_change(index, true);
     if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
@@ -219,7 +233,7 @@ lod::Step RoamFront::refine() {
 void RoamFront::merge_one(DiamondIndex index) {
     unlink(index);
     glides_.drop(index, mesh_[index].level);
-    tessellator_.change(mesh_[index].centre());
+    note_change(index, false);
     const MergeOutcome outcome = mesh_.merge(index);
     for (uint32_t i = 0; i < outcome.removed_count; ++i)
         dequeue(outcome.removed[i]);
@@ -255,14 +269,8 @@ lod::Step RoamFront::coarsen(double limit_px) {
     return step;
 }
 
-lod::PoolRegion RoamFront::pool_need() const {
-    const uint64_t triangles = std::max(mesh_.triangles(), options_.reserve_triangles);
-    const uint64_t records =
-        std::max<uint64_t>(mesh_.record_count(), options_.reserve_triangles * 5 / 4 + 64);
-    return Tessellator::need(triangles, static_cast<uint32_t>(records));
-}
-
 void RoamFront::emit(const lod::View& view, lod::DrawList& out) {
+    ask_all();
     tessellator_.emit({table_, mesh_, ranks_, bound_of_, glides_}, view, out);
 }
 

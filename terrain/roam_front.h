@@ -52,6 +52,9 @@ struct RoamOptions {
     bool is_pruning =
         true;              ///< enhMerge: take whole subtrees back; false: one merge at a time, for comparison
     double glide_s = 0.0;  ///< time a vertex takes to its place and back; 0: it jumps
+    /// k in 0 … kMostBatch: each leaf of the mesh is drawn as 4^k triangles (batched_errors.h). Only for tables that are
+    /// whole, and without gliding: what a split adds to a patch is no single vertex on an edge.
+    int batch = 0;
 };
 
 /// What an edit took.
@@ -73,12 +76,14 @@ class RoamFront final : public lod::Front {
     lod::Step refine() override;
     lod::Step coarsen(double limit_px) override;
     /// Those on their way back are no longer counted.
-    uint64_t triangles() const override { return mesh_.triangles() - leaving_triangles_; }
+    uint64_t triangles() const override {
+        return ((mesh_.triangles() - idle_triangles_) << (2 * options_.batch)) - leaving_triangles_;
+    }
     double error_px() override;
     lod::OperationCounts operations() const override { return operations_; }
     uint64_t hash() const override { return mesh_.hash(); }
     lod::PoolRegion pool_need() const override;
-    void place(const lod::PoolRegion& region) override { tessellator_.place(region); }
+    void place(const lod::PoolRegion& region) override;
     void emit(const lod::View& view, lod::DrawList& out) override;
     double jump_px() const override { return jump_px_; }
     uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
@@ -157,7 +162,14 @@ class RoamFront final : public lod::Front {
     bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
     void note_pop(DiamondIndex index);
+    uint32_t parents_of(DiamondIndex index) const;
+    bool is_idle(DiamondIndex index) const {
+        return mesh_[index].level > table_.domain.finest_level() - 2 * options_.batch;
+    }
     uint64_t triangles_of(DiamondIndex index) const;
+    void note_change(DiamondIndex index, bool is_split);
+    uint64_t most_triangles() const;
+    uint32_t most_records() const;
     bool leave(DiamondIndex index);
     void stay(DiamondIndex index);
     void advance_glides(bool is_cut);
@@ -187,7 +199,9 @@ class RoamFront final : public lod::Front {
     std::unique_ptr<PageLoader> loader_;  ///< null: no page is ever absent
     VertexGlides glides_;
     double now_s_ = 0.0;
-    bool is_cut_ = true;              ///< this frame has nothing in common with the last: nothing glides
+    bool is_cut_ = true;  ///< this frame has nothing in common with the last: nothing glides
+    uint64_t idle_triangles_ =
+        0;  ///< of the mesh, by splits that draw nothing new: patches end with the grid
     uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
     double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
     double jump_px_ = 0.0;

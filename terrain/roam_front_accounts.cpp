@@ -1,5 +1,6 @@
-// RoamFront's accounts: its memory, and validate(), which checks the mesh, the queues and every sleeping diamond's
+// RoamFront's accounts: what it draws and needs, its memory, and validate(), which checks the mesh, the queues and every sleeping diamond's
 // promise against a fresh look.
+#include <algorithm>
 #include <string>
 
 #include "terrain/roam_front.h"
@@ -10,7 +11,7 @@ namespace terrain {
 std::string RoamFront::validate() const {
     std::string fault = validate_mesh(mesh_);
     if (!fault.empty()) return fault;
-    uint64_t queued = 0, leaving = 0, unasked = 0;
+    uint64_t queued = 0, leaving = 0, idle = 0, unasked = 0;
     for (DiamondIndex i = kRoot; i < mesh_.record_count(); ++i) {
         const Diamond& d = mesh_[i];
         const Queue expected = !d.is_used()        ? Queue::kNone
@@ -21,6 +22,7 @@ std::string RoamFront::validate() const {
         const bool waits = expected == Queue::kSplit && queue_of(i) == Queue::kWait;
         const bool leaves = expected == Queue::kMerge && queue_of(i) == Queue::kLeave;
         if (leaves) leaving += triangles_of(i);
+        if (d.is_used() && d.is_split && is_idle(i)) idle += parents_of(i);
         if (queue_of(i) != expected && !waits && !leaves && !is_unasked)
             return "diamond " + std::to_string(i) + " is in the wrong queue";
         unasked += is_unasked ? 1 : 0;
@@ -33,6 +35,7 @@ std::string RoamFront::validate() const {
     }
     if (unasked != unasked_.size()) return "miscounts what is unasked";
     if (leaving != leaving_triangles_) return "miscounts what leaves";
+    if (idle != idle_triangles_) return "miscounts splits that draw nothing new";
     uint64_t linked = 0;
     for (const BucketQueue& queue : queues_) {
         for (uint32_t b = 0; b < kBucketCount; ++b) {
@@ -44,6 +47,30 @@ std::string RoamFront::validate() const {
         }
     }
     return linked == queued ? "" : "a queue has lost a record";
+}
+
+/// A diamond is being split, or merged.
+void RoamFront::note_change(DiamondIndex index, bool is_split) {
+    tessellator_.change(mesh_[index].centre());
+    if (!is_idle(index)) return;
+    idle_triangles_ += is_split ? parents_of(index) : -uint64_t{parents_of(index)};
+}
+
+uint64_t RoamFront::most_triangles() const {
+    return std::max(triangles() + leaving_triangles_, options_.reserve_triangles);
+}
+
+uint32_t RoamFront::most_records() const {
+    const uint64_t reserved = (options_.reserve_triangles >> (2 * options_.batch)) * 5 / 4 + 64;
+    return std::max(mesh_.record_count(), static_cast<uint32_t>(reserved));
+}
+
+lod::PoolRegion RoamFront::pool_need() const {
+    return tessellator_.need(most_triangles(), most_records());
+}
+
+void RoamFront::place(const lod::PoolRegion& region) {
+    tessellator_.place(region, most_triangles(), most_records());
 }
 
 uint64_t RoamFront::memory_bytes() const {

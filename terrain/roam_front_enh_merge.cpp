@@ -44,7 +44,7 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
         stack_.pop_back();
         if (queue_of(index) == Queue::kLeave) leaving_triangles_ -= triangles_of(index);
         glides_.drop(index, mesh_[index].level);
-        tessellator_.change(mesh_[index].centre());
+        note_change(index, false);
         if (is_queued(index)) unlink(index);
         const MergeOutcome outcome = mesh_.merge(index);
         ++count;

@@ -65,10 +65,15 @@ void RoamFront::note_pop(DiamondIndex index) {
     jump_px_ = std::max(jump_px_, static_cast<double>(scale_.upper_px(bucket_of(index))));
 }
 
+/// Triangles of the mesh that hang on a diamond's split.
+uint32_t RoamFront::parents_of(DiamondIndex index) const {
+    return static_cast<uint32_t>(std::count_if(std::begin(mesh_[index].parent), std::end(mesh_[index].parent),
+                                               [](DiamondIndex parent) { return is_record(parent); }));
+}
+
 /// Triangles that merging this diamond takes away.
 uint64_t RoamFront::triangles_of(DiamondIndex index) const {
-    return static_cast<uint64_t>(std::count_if(std::begin(mesh_[index].parent), std::end(mesh_[index].parent),
-                                               [](DiamondIndex parent) { return is_record(parent); }));
+    return is_idle(index) ? 0 : uint64_t{parents_of(index)} << (2 * options_.batch);
 }
 
 /// Sends a mergeable diamond's vertex back to its edge; false when it must jump.

@@ -37,7 +37,7 @@ struct RunPicker {
             skipped_count += node.count;
             return;
         }
-        if (node.count <= kUnit || outside < -2.0f * radius_m) return draw(node);
+        if (node.is_run() || node.count <= kUnit || outside < -2.0f * radius_m) return draw(node);
         visit(node.children);
         visit(node.children + 1);
     }
@@ -58,18 +58,19 @@ struct RunPicker {
     }
 };
 
-lod::Vertex ground_vertex(const TessellationInput& input, DiamondIndex index) {
-    const GridPoint p = input.mesh.domain().clamped(input.mesh[index].centre());
+/// A sample's vertex, beside its place where it is under way.
+lod::Vertex ground_vertex(const DiamondTable& table, GridPoint at, float height_m, const glm::vec3& way_m) {
+    const GridPoint p = table.domain.clamped(at);
+    const glm::dvec3 place = table.frame.world_from_sample(p.x, p.y, double(height_m));
     lod::Vertex vertex;
-    const glm::dvec3 world =
-        input.table.frame.world_from_sample(p.x, p.y, double(input.ranks[index].source.height_m));
-    const glm::dvec3 shown =
-        input.glides.is_empty()
-            ? world
-            : world + glm::dvec3(input.glides.displacement_m(index, input.mesh[index].level));
-    lod::split_hi_lo(shown, vertex.position_hi, vertex.position_lo);
+    lod::split_hi_lo(place + glm::dvec3(way_m), vertex.position_hi, vertex.position_lo);
     lod::set_ground_sample(vertex, p.x, p.y);
     return vertex;
+}
+
+/// Slots that patches of so many triangles need if none shared an edge, and an eighth of that for change.
+uint64_t patch_slots(uint64_t triangles, int batch) {
+    return batch == 0 ? 0 : triangles - triangles / 8 + 64;
 }
 
 }  // namespace
@@ -88,35 +89,56 @@ void Tessellator::forget() {
     runs_.mark_all();
 }
 
-lod::PoolRegion Tessellator::need(uint64_t triangles, uint32_t records) {
-    return {0, records, 0, IndexRuns::room_for(triangles)};
+lod::PoolRegion Tessellator::need(uint64_t triangles, uint32_t records) const {
+    const uint64_t patches = patch_slots(triangles, batch_);
+    const bool is_outgrown = records > record_slots_ || patches > region_.vertex_capacity - record_slots_;
+    const uint64_t least = batch_ > 0 && is_outgrown ? uint64_t{region_.vertex_capacity} + 1 : 0;
+    return {0, static_cast<uint32_t>(std::max(records + patches, least)), 0, IndexRuns::room_for(triangles)};
 }
 
-void Tessellator::place(const lod::PoolRegion& region) {
+void Tessellator::place(const lod::PoolRegion& region, uint64_t triangles, uint32_t records) {
     region_ = region;
+    const uint64_t patches = patch_slots(triangles, batch_);
+    record_slots_ = static_cast<uint32_t>(uint64_t{region.vertex_capacity} * records / (records + patches));
+    CHECK(record_slots_ >= records && region.vertex_capacity - record_slots_ >= patches);
     const size_t pages = (region.vertex_capacity + kPageSize - 1) / kPageSize;
     vertices_.resize(pages * kPageSize);
     fresh_.resize(std::max(pages, fresh_.size()));
     is_all_stale_ = true;
+    patches_.reset(record_slots_, region.vertex_capacity - record_slots_);
     runs_.reset(region.index_capacity);
+}
+
+lod::Vertex Tessellator::vertex_at(const TessellationInput& input, uint32_t slot) const {
+    if (slot < record_slots_) {
+        const Diamond& d = input.mesh[slot];
+        const glm::vec3 way_m =
+            input.glides.is_empty() ? glm::vec3(0.0f) : input.glides.displacement_m(slot, d.level);
+        return ground_vertex(input.table, d.centre(), input.ranks[slot].source.height_m, way_m);
+    }
+    const PatchVertices::Place& place = patches_[slot];
+    const float height_m = input.table.at(place.centre(), place.level).height_m;
+    return ground_vertex(input.table, place.centre(), height_m, glm::vec3(0.0f));
 }
 
 /// Makes the new vertices of a page; those with a bit in `bits` must be written.
 void Tessellator::refresh_page(const TessellationInput& input, uint32_t page, uint64_t bits) {
     for (; bits != 0; bits &= bits - 1) {
-        const DiamondIndex index = page * kPageSize + static_cast<uint32_t>(std::countr_zero(bits));
-        if (input.mesh[index].is_used() && input.mesh[index].is_split)
-            vertices_[index] = ground_vertex(input, index);
+        const uint32_t slot = page * kPageSize + static_cast<uint32_t>(std::countr_zero(bits));
+        const bool is_shown = slot < record_slots_ ? input.mesh[slot].is_used() && input.mesh[slot].is_split
+                                                   : patches_.is_used(slot);
+        if (is_shown) vertices_[slot] = vertex_at(input, slot);
     }
 }
 
 void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& out) {
-    const uint32_t count = input.mesh.record_count();
+    const uint32_t records = input.mesh.record_count();
+    const uint32_t end = patches_.count() > 0 ? patches_.end() : records;
     out.vertex_writes.reserve(out.vertex_writes.size() + region_.vertex_capacity / 2 + 1);  // every other one
-    const auto write = [&](uint32_t first, uint32_t end) {
-        out.vertex_writes.push_back({region_.first_vertex + first, {&vertices_[first], end - first}});
+    const auto write = [&](uint32_t first, uint32_t behind) {
+        out.vertex_writes.push_back({region_.first_vertex + first, {&vertices_[first], behind - first}});
     };
-    for (uint32_t page = 0; page * kPageSize < count && page < fresh_.size(); ++page) {
+    for (uint32_t page = 0; page * kPageSize < end && page < fresh_.size(); ++page) {
         uint64_t bits = std::exchange(fresh_[page], 0);
         refresh_page(input, page, bits);
         while (bits != 0 && !is_all_stale_) {
@@ -126,12 +148,17 @@ void Tessellator::write_vertices(const TessellationInput& input, lod::DrawList& 
             bits = first + length == kPageSize ? 0 : bits >> (first + length) << (first + length);
         }
     }
-    if (is_all_stale_) write(0, count);
+    if (is_all_stale_) {
+        write(0, records);
+        if (end > records) write(record_slots_, end);
+    }
     is_all_stale_ = false;
 }
 
 void Tessellator::write_indices(const TessellationInput& input, lod::DrawList& out) {
-    runs_.update(input.mesh, {{input.table, input.mesh, input.ranks}, runs_.fresh()});
+    runs_.update(input.mesh, {input.table, input.mesh, input.ranks, 2 * batch_, patches_, runs_.fresh()});
+    for (const uint32_t slot : patches_.made())
+        add_vertex(slot);
     out.index_writes.reserve(out.index_writes.size() + runs_.most_runs());
     for (const IndexRange& range : runs_.changed())
         out.index_writes.push_back(
@@ -158,10 +185,10 @@ void Tessellator::add_items(const TessellationInput& input, const lod::View& vie
 }
 
 void Tessellator::emit(const TessellationInput& input, const lod::View& view, lod::DrawList& out) {
-    CHECK(input.mesh.record_count() <= region_.vertex_capacity);
+    CHECK(input.mesh.record_count() <= record_slots_);
     if (is_first_view_) {
-        write_vertices(input, out);
         write_indices(input, out);
+        write_vertices(input, out);
         is_first_view_ = false;
     }
     add_items(input, view, out);

@@ -2,7 +2,12 @@
 //
 // Every split diamond owns one vertex; its slot in the pool is its record's index, so a vertex is written once,
 // when its diamond is split, and stays. Indices lie in runs (index_runs.h) and stay as well, until a split or a
-// merge touches their run. A view draws the runs it may see, one item each, neighbours in one.
+// merge touches their run. A view draws the stretches of the list it may see.
+//
+// Leaves may be drawn as patches of 4^k triangles over the samples below (batched_errors.h). The samples they need beside
+// the mesh's vertices have slots of their own, behind those of the records.
+//
+//     vertices   [ records ............ | patches' samples ............ ]
 #pragma once
 
 #include <span>
@@ -14,6 +19,7 @@
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_rank.h"
 #include "terrain/index_runs.h"
+#include "terrain/patch_vertices.h"
 #include "terrain/vertex_glides.h"
 
 namespace terrain {
@@ -29,6 +35,9 @@ struct TessellationInput {
 
 class Tessellator {
   public:
+    /// @param batch  k: leaves are drawn as 4^k triangles each where the grid is that fine
+    explicit Tessellator(int batch) : batch_(batch) {}
+
     /// A vertex must be written: its diamond has been split, or it is shown elsewhere.
     void add_vertex(DiamondIndex index);
     /// The diamond with this centre has been split or merged.
@@ -36,9 +45,11 @@ class Tessellator {
     /// The mesh begins anew: nothing announced so far matters.
     void forget();
 
-    /// Sizes that hold `triangles` leaf triangles and `records` vertices.
-    static lod::PoolRegion need(uint64_t triangles, uint32_t records);
-    void place(const lod::PoolRegion& region);
+    /// Sizes that hold so many triangles, patches' counted singly, and vertices of so many records; more than there is
+    /// when either has outgrown its part.
+    lod::PoolRegion need(uint64_t triangles, uint32_t records) const;
+    /// @param records  of these many and these many triangles are the parts made; what is left over they share
+    void place(const lod::PoolRegion& region, uint64_t triangles, uint32_t records);
     const lod::PoolRegion& region() const { return region_; }
 
     /// Call before the first emit of a frame.
@@ -51,15 +62,19 @@ class Tessellator {
     uint64_t emitted_triangles() const { return emitted_; }
 
   private:
+    lod::Vertex vertex_at(const TessellationInput& input, uint32_t slot) const;
     void refresh_page(const TessellationInput& input, uint32_t page, uint64_t bits);
     void write_vertices(const TessellationInput& input, lod::DrawList& out);
     void write_indices(const TessellationInput& input, lod::DrawList& out);
     void add_items(const TessellationInput& input, const lod::View& view, lod::DrawList& out);
 
     lod::PoolRegion region_;
-    std::vector<lod::Vertex> vertices_;  ///< [record]; the pool's twin
-    std::vector<uint64_t> fresh_;        ///< a bit per record: must be written
+    std::vector<lod::Vertex> vertices_;  ///< [slot]; the pool's twin
+    std::vector<uint64_t> fresh_;        ///< a bit per slot: must be written
     bool is_all_stale_ = true;           ///< the region is new: everything must be written
+    int batch_ = 0;
+    uint32_t record_slots_ = 0;
+    PatchVertices patches_;
     IndexRuns runs_;
     std::vector<IndexRange> stretches_;  ///< scratch: of the list, to be drawn
     bool is_first_view_ = true;

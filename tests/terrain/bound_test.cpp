@@ -4,9 +4,10 @@
 // list. Each sample is projected, and so is the point of the drawn surface straight above or below it.
 #include <gtest/gtest.h>
 
-#include <ostream>
-
 #include <fstream>
+#include <ostream>
+#include <span>
+#include <vector>
 
 #include "lod/scheduler.h"
 #include "terrain/roam_front.h"
@@ -167,47 +168,67 @@ double worst_vertex_m(const DemTruth& dem, const std::vector<DrawnTriangle>& tri
     return worst;
 }
 
-class TerrainBound : public testing::TestWithParam<Source> {};
+/// What is tried on one raster.
+struct Trials {
+    std::span<const Pose> poses;
+    std::span<const double> tolerances_px;
+    std::vector<int> batches;  ///< k
+};
 
-TEST_P(TerrainBound, HoldsForEverySampleInView) {
-    const std::string path = std::string(HARRIER_SOURCE_DIR) + "/" + GetParam().path;
+void expect_bound(const Source& source, const Trials& trials) {
+    const std::string path = std::string(HARRIER_SOURCE_DIR) + "/" + source.path;
     if (!std::ifstream(path)) GTEST_SKIP() << path << " is not on this machine";
     DemTruth dem;
     ASSERT_TRUE(terrain_test::read_truth(path, dem));
     data::HeightGridOptions reading;
-    reading.voids = GetParam().voids;
+    reading.voids = source.voids;
     const auto grid = data::read_height_grid({path}, reading);
     ASSERT_TRUE(grid) << grid.message();
     const terrain::DiamondTable table = terrain::make_diamond_table(*grid, 2);
 
-    for (const Pose& pose : kPoses) {
+    for (const Pose& pose : trials.poses) {
         const lod::View view = view_of(dem, pose);
         const std::vector<Sample> samples = samples_in_view(dem, view);
         EXPECT_GT(samples.size(), 100u) << pose.name;
-        for (const double tolerance_px : kTolerances_px) {
-            SCOPED_TRACE(std::string(pose.name) + ", " + std::to_string(tolerance_px) + " px");
-            terrain::RoamFront front(table, {.tolerance_px = tolerance_px});
-            lod::Front* fronts[] = {&front};
-            front.begin_frame({&view, 1}, 0.0);
-            ASSERT_TRUE(
-                lod::schedule(fronts, {.tolerance_px = tolerance_px}, lod::operation_limit(10'000'000))
-                    .converged);
-            terrain_test::PoolTwin pool;
-            const auto triangles = terrain_test::emit_triangles(front, view, pool);
-            const Findings found = measure(dem, view, samples, triangles);
-            std::printf(
-                "%-14s %-15s tolerance %.1f: bound %.3f, measured %.3f px over %7zu samples, %6zu "
-                "triangles, rim beside %.3f px\n",
-                GetParam().name, pose.name, tolerance_px, front.error_px(), found.max_px, samples.size(),
-                triangles.size(), found.beside_max_px);
-            EXPECT_EQ(found.missing, 0u) << "samples without a surface above or below";
-            EXPECT_EQ(found.inner_beside, 0u) << "samples that fall between triangles";
-            EXPECT_LE(found.max_px, front.error_px() + kSlack_px);
-            EXPECT_LE(found.beside_max_px, front.error_px() + kSlack_px);
-            EXPECT_LE(front.error_px(), tolerance_px);
-            EXPECT_LE(worst_vertex_m(dem, triangles), 1e-3);
+        for (const double tolerance_px : trials.tolerances_px) {
+            for (const int batch : trials.batches) {
+                SCOPED_TRACE(std::string(pose.name) + ", " + std::to_string(tolerance_px) + " px, k " +
+                             std::to_string(batch));
+                terrain::RoamFront front(table, {.tolerance_px = tolerance_px, .batch = batch});
+                lod::Front* fronts[] = {&front};
+                front.begin_frame({&view, 1}, 0.0);
+                ASSERT_TRUE(
+                    lod::schedule(fronts, {.tolerance_px = tolerance_px}, lod::operation_limit(10'000'000))
+                        .converged);
+                terrain_test::PoolTwin pool;
+                const auto triangles = terrain_test::emit_triangles(front, view, pool);
+                const Findings found = measure(dem, view, samples, triangles);
+                std::printf(
+                    "%-14s %-15s k %d tolerance %.1f: bound %.3f, measured %.3f px over %7zu samples, %6zu "
+                    "triangles, rim beside %.3f px\n",
+                    source.name, pose.name, batch, tolerance_px, front.error_px(), found.max_px,
+                    samples.size(), triangles.size(), found.beside_max_px);
+                EXPECT_EQ(found.missing, 0u) << "samples without a surface above or below";
+                EXPECT_EQ(found.inner_beside, 0u) << "samples that fall between triangles";
+                EXPECT_LE(found.max_px, front.error_px() + kSlack_px);
+                EXPECT_LE(found.beside_max_px, front.error_px() + kSlack_px);
+                EXPECT_LE(front.error_px(), tolerance_px);
+                EXPECT_LE(worst_vertex_m(dem, triangles), 1e-3);
+            }
         }
     }
+}
+
+class TerrainBound : public testing::TestWithParam<Source> {};
+
+TEST_P(TerrainBound, HoldsForEverySampleInView) {
+    expect_bound(GetParam(), {kPoses, kTolerances_px, {0}});
+}
+
+/// Leaves drawn as patches: every k, at the two ends of the scale.
+TEST_P(TerrainBound, HoldsForBatches) {
+    constexpr double kBoth_px[] = {1.0, 4.0};
+    expect_bound(GetParam(), {std::span(kPoses).first(2), kBoth_px, {1, 2, 3}});
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -43,8 +43,8 @@ std::vector<DrawnTriangle> drawn(lod::Front& front, const lod::View& view, terra
 }
 
 /// Flies about at random, stops refinement anywhere, and looks at what would be drawn each time.
-void fly_and_check(const data::HeightGrid& grid, double spacing_m, int frames, uint64_t seed) {
-    terrain::RoamFront front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0});
+void fly_and_check(const data::HeightGrid& grid, double spacing_m, int frames, uint64_t seed, int batch = 0) {
+    terrain::RoamFront front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0, .batch = batch});
     lod::Front* fronts[] = {&front};
     const lod::View whole = whole_view(grid, spacing_m);
     lod::Rng rng(seed);
@@ -68,6 +68,9 @@ void fly_and_check(const data::HeightGrid& grid, double spacing_m, int frames, u
             ASSERT_EQ(terrain_test::area_of(all), int64_t{2} * (grid.width - 1) * (grid.height - 1));
         }
         ASSERT_EQ(front.validate(), "");
+        if (grid.width == grid.height && front.mesh().domain().side() == grid.width - 1) {
+            ASSERT_EQ(all.size(), front.triangles());
+        }
     }
 }
 
@@ -89,5 +92,23 @@ TEST(TerrainConformity, RasterWithHoles) {
     add_voids(grid, 170, 0, 10);
     fly_and_check(grid, 10.0, 150, 16);
 }
+
+/// Leaves drawn as patches, down to where the grid ends.
+class TerrainConformityOf : public testing::TestWithParam<int> {};
+
+TEST_P(TerrainConformityOf, Batches) {
+    const int k = GetParam();
+    fly_and_check(terrain_test::fractal_grid(129, 129, 8.0, 300.0, 1), 8.0, 60, 11, k);
+    fly_and_check(terrain_test::fractal_grid(200, 131, 10.0, 300.0, 2), 10.0, 60, 12, k);
+    fly_and_check(terrain_test::fractal_grid(2, 2, 10.0, 30.0, 4), 10.0, 10, 14, k);
+    fly_and_check(terrain_test::fractal_grid(3, 18, 10.0, 30.0, 5), 10.0, 20, 15, k);
+    data::HeightGrid holes = terrain_test::fractal_grid(150, 150, 10.0, 300.0, 6);
+    add_voids(holes, 40, 50, 37);
+    add_voids(holes, 100, 120, 1);
+    add_voids(holes, 140, 0, 10);
+    fly_and_check(holes, 10.0, 60, 16, k);
+}
+
+INSTANTIATE_TEST_SUITE_P(K, TerrainConformityOf, testing::Values(1, 2, 3));
 
 }  // namespace

@@ -15,8 +15,9 @@ using terrain_test::level_view;
 
 /// A front whose pool is kept, in a place of its own that does not begin at 0.
 struct Rig {
-    explicit Rig(const data::HeightGrid& grid, uint64_t reserve)
-        : front(terrain::make_diamond_table(grid, 2), {.tolerance_px = 1.0, .reserve_triangles = reserve}) {}
+    explicit Rig(const data::HeightGrid& grid, uint64_t reserve, int batch = 0)
+        : front(terrain::make_diamond_table(grid, 2),
+                {.tolerance_px = 1.0, .reserve_triangles = reserve, .batch = batch}) {}
 
     uint64_t adapt(const lod::View& view, double tolerance_px, uint64_t operations,
                    uint64_t most = UINT64_MAX) {
@@ -77,8 +78,9 @@ bool are_same(const std::vector<DrawnTriangle>& a, const std::vector<DrawnTriang
 }
 
 /// Random views, sometimes near each other, sometimes not; random interruptions, so that regions grow and shrink.
-void compare_with_scratch(const data::HeightGrid& grid, double spacing_m, int frames, uint64_t seed) {
-    Rig kept(grid, 0), anew(grid, 0);
+void compare_with_scratch(const data::HeightGrid& grid, double spacing_m, int frames, uint64_t seed,
+                          int batch = 0) {
+    Rig kept(grid, 0, batch), anew(grid, 0, batch);
     const lod::View above = from_above(grid, spacing_m);
     lod::Rng rng(seed);
     lod::View view = above;
@@ -107,13 +109,20 @@ TEST(IndexRuns, KeptIsWhatWouldBeWrittenFromScratch) {
     compare_with_scratch(fractal_grid(300, 171, 10.0, 300.0, 2), 10.0, 300, 32);
 }
 
+TEST(IndexRuns, PatchesKeptAreWhatWouldBeWrittenFromScratch) {
+    for (const int batch : {1, 2, 3}) {
+        SCOPED_TRACE(batch);
+        compare_with_scratch(fractal_grid(300, 171, 10.0, 300.0, 2), 10.0, 200, 34, batch);
+    }
+}
+
 /// Drawing only now and then, and more than one view a frame, changes nothing.
 TEST(IndexRuns, FramesThatNobodyDrawsAreMadeUpFor) {
     const data::HeightGrid grid = fractal_grid(513, 513, 8.0, 400.0, 3);
     Rig kept(grid, 20'000), anew(grid, 20'000);
     const lod::View above = from_above(grid, 8.0);
     lod::Rng rng(33);
-    for (int frame = 0; frame < 200; ++frame) {
+    for (int frame = 0; frame < 120; ++frame) {
         const double t = frame / 60.0;
         const lod::View view = level_view({500.0 + 300.0 * t, 700.0 + 200.0 * t, 420.0}, 0.9 + 0.3 * t, -0.2);
         kept.adapt(view, 1.0, 400);
@@ -137,7 +146,7 @@ TEST(IndexRuns, AFlightWritesWhatItChanges) {
     rig.adapt(view_at(0), 0.5, UINT64_MAX);
     rig.draw(view_at(0));
     uint64_t operations = 0, written = 0, vertices = 0, most = 0;
-    constexpr int kFrames = 300;
+    constexpr int kFrames = 120;
     for (int frame = 1; frame <= kFrames; ++frame) {
         operations += rig.adapt(view_at(frame), 0.5, UINT64_MAX);
         rig.draw(view_at(frame));
