@@ -93,7 +93,7 @@ class RoamFront final : public lod::Front {
     /// cut stays as it is, and so does hash(); error_px() is true at once. The next frame's jump_px() counts how far
     /// the edit moved vertices. For a second nothing glides there: new ground appears at once, as fine as the budget
     /// allows.
-    /// CHECKs that the table is whole: pages of a store are not edited.
+    /// CHECKs that the table is whole and leaves are no patches: pages of a store and batched errors are not edited.
     /// Cost: edit_table's, and O(records over the range + levels).
     FrontEditCounts edit(const GroundEdit& edit);
 

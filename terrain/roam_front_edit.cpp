@@ -26,7 +26,7 @@ bool meets(const data::SampleRange& range, GridPoint centre, int reach) {
 }  // namespace
 
 FrontEditCounts RoamFront::edit(const GroundEdit& edit) {
-    CHECK(!loader_);
+    CHECK(!loader_ && options_.batch == 0);
     ask_all();  // candidates not yet asked hold no facts
     FrontEditCounts counts;
     counts.table = edit_table(edit, table_, options_.threads);
