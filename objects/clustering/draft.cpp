@@ -15,7 +15,7 @@ namespace objects {
 
 namespace {
 
-constexpr double kRungShare = 0.4;        ///< of a level's error that a mesh by itself may take
+constexpr double kRungShare = 0.6;        ///< of a level's error that a mesh by itself may take
 constexpr size_t kFewestFaces = 4;        ///< meshes with fewer are not reduced by themselves
 constexpr double kWorthwhileShare = 0.7;  ///< a rung has at most so many of the finer one's faces
 

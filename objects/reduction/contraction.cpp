@@ -83,17 +83,14 @@ class Contraction {
         }
     }
 
-    Contracted result(const FaceSoup& soup) {
-        Contracted out;
-        out.soup.points = points_;
+    FaceSoup result(const FaceSoup& soup) const {
+        FaceSoup out;
+        out.points = points_;
         for (uint32_t face = 0; face < faces_.size(); ++face) {
             if (is_dead_[face]) continue;
-            out.soup.faces.push_back(faces_[face]);
-            out.soup.colours.push_back(soup.colours[face]);
+            out.faces.push_back(faces_[face]);
+            out.colours.push_back(soup.colours[face]);
         }
-        out.group_of.resize(points_.size());
-        for (uint32_t i = 0; i < points_.size(); ++i)
-            out.group_of[i] = points_groups_.find(i);
         return out;
     }
 
@@ -342,8 +339,8 @@ void Contraction::join(const Pair& pair) {
 
 }  // namespace
 
-Contracted contract(const FaceSoup& soup, const std::vector<double>& tolerance_m,
-                    const ContractionReach& reach) {
+FaceSoup contract(const FaceSoup& soup, const std::vector<double>& tolerance_m,
+                  const ContractionReach& reach) {
     Contraction contraction(soup, tolerance_m, reach);
     contraction.run();
     return contraction.result(soup);

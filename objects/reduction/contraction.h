@@ -15,11 +15,6 @@
 
 namespace objects {
 
-struct Contracted {
-    FaceSoup soup;  ///< points as in the input, by index, those of a group all but one unused
-    std::vector<uint32_t> group_of;  ///< [points] the one that stands for it
-};
-
 struct ContractionReach {
     double close_m = 0.0;    ///< points this near to each other are pairs, edge or not; 0: edges only
     double longest_m = 0.0;  ///< no pair is longer; 0: any length
@@ -27,8 +22,9 @@ struct ContractionReach {
 
 /// @param soup         no collapsed faces; may have repeated ones
 /// @param tolerance_m  [points] what a pair with this point may cost; 0: only what lies in the planes exactly
+/// @returns            points as in the input, by index, those that became one all but one unused
 /// Cost: O(n log n), 1 to 2 us a point. Deterministic.
-Contracted contract(const FaceSoup& soup, const std::vector<double>& tolerance_m,
-                    const ContractionReach& reach);
+FaceSoup contract(const FaceSoup& soup, const std::vector<double>& tolerance_m,
+                  const ContractionReach& reach);
 
 }  // namespace objects

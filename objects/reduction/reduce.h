@@ -1,9 +1,8 @@
 // Reduction to a proved bound: fewer faces, and no point of either surface farther than a limit from the other.
 //
-// Contraction (contraction.h) proposes; the two-sided surface distance (lod/surface/surface_distance.h) judges every
-// face of both surfaces. Where a face fails, the points it came from are given less tolerance and the proposal is made
-// anew; what still fails after some rounds is mended with the source's own faces, which are at distance 0. Small parts
-// that lie within the limit of larger ones are left out. So the result always holds, and at worst is the source.
+// Cover (cover.h) and contraction (contraction.h) propose; the two-sided surface distance
+// (lod/surface/surface_distance.h) judges every face of both surfaces. What fails is mended with the source's own faces,
+// which are at distance 0. So the result always holds, and at worst is the source.
 #pragma once
 
 #include "objects/reduction/face_soup.h"

@@ -1,13 +1,18 @@
-// Builds the construction site's cluster tree and counts what overviews of it need. Reported, not gated.
+// Builds the cluster tree of the construction site, or of a high-rise of so many objects, and counts what overviews of
+// it need. Reported, not gated (docs/hdlod.md).
 //
-//     cluster_bench [THREADS [TOLERANCE_PX]]
-#include <algorithm>
+//     cluster_bench site|OBJECTS [THREADS [TOLERANCE_PX]]
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <string>
 #include <vector>
 
 #include "data/scenes/construction_site.h"
+#include "data/scenes/scene_family.h"
 #include "objects/clustering/cluster_build.h"
 #include "objects/display.h"
 
@@ -15,6 +20,17 @@ namespace {
 
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Of this process, all threads.
+double cpu_s() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+double peak_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 void print_levels(const objects::ClusterTree& tree) {
@@ -84,30 +100,33 @@ void print_overviews(const objects::ClusterTree& tree, double tolerance_px) {
 }  // namespace
 
 int main(int count, char** words) {
-    objects::BuildOptions options;
-    options.threads = count > 1 ? static_cast<unsigned>(std::atoi(words[1])) : 2;
-    if (count > 3) options.gamma_share = std::atof(words[3]);
-    if (count > 4) options.error_share = std::atof(words[4]);
-    if (count > 5) options.most_children = static_cast<uint32_t>(std::atoi(words[5]));
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    const std::string name = count > 1 ? words[1] : "site";
+    objects::BuildOptions options;
+    options.threads = count > 2 ? static_cast<unsigned>(std::atoi(words[2])) : 2;
+    const double tolerance_px = count > 3 ? std::atof(words[3]) : 2.0;
     double begin = now_s();
-    const data::TimedScene scene = data::generate_construction_site(1);
+    data::FamilyOptions family;
+    if (name != "site") family.objects = static_cast<uint32_t>(std::atoi(name.c_str()));
+    const data::TimedScene scene =
+        name == "site" ? data::generate_construction_site(1) : data::generate_family(family);
     uint64_t triangles = 0;
     for (const data::TimedObject& object : scene.objects)
         triangles += scene.meshes[object.mesh].triangles.size();
     std::printf("%zu objects, %zu meshes, %lu triangles in %.1f s\n", scene.objects.size(),
                 scene.meshes.size(), triangles, now_s() - begin);
     begin = now_s();
+    const double cpu_begin = cpu_s();
     const objects::ClusterTree tree =
         objects::build_cluster_tree(scene, options, [&](uint32_t level, size_t clusters) {
             std::printf("  %.1f s: level %u, %zu clusters\n", now_s() - begin, level, clusters);
         });
     std::printf(
-        "built in %.1f s: %zu clusters, %zu geometries, %zu visibilities, %zu steps, %zu motions, "
-        "%.0f MB of vertices, %.0f MB of indices\n",
-        now_s() - begin, tree.clusters.size(), tree.geometries.size(), tree.visibilities.size(),
-        tree.step_time_s.size(), tree.motions.size(), double(tree.vertices.size() * 32) / 1e6,
-        double(tree.indices.size() * 4) / 1e6);
+        "built in %.1f s, %.1f s of processors: %zu clusters, %zu geometries, %zu visibilities, %zu steps, "
+        "%zu motions, %.0f MB of vertices, %.0f MB of indices; at most %.0f MB\n",
+        now_s() - begin, cpu_s() - cpu_begin, tree.clusters.size(), tree.geometries.size(),
+        tree.visibilities.size(), tree.step_time_s.size(), tree.motions.size(),
+        double(tree.vertices.size() * 32) / 1e6, double(tree.indices.size() * 4) / 1e6, peak_mb());
     print_levels(tree);
-    print_overviews(tree, count > 2 ? std::atof(words[2]) : 2.0);
+    print_overviews(tree, tolerance_px);
 }
