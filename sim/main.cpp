@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "sim/command_build.h"
+#include "sim/command_clusters.h"
 #include "sim/command_compare.h"
 #include "sim/command_demo.h"
 #include "sim/command_fly.h"
 #include "sim/command_generate.h"
 #include "sim/command_mesh.h"
+#include "sim/command_objects_compare.h"
 #include "sim/command_query.h"
 #include "sim/command_still.h"
 #include "sim/command_terrain.h"
@@ -28,6 +30,9 @@ struct Arguments {
     sim::CompareArguments terrain_compare;
     sim::GenerateArguments objects_generate;
     sim::ConvertArguments objects_convert;
+    sim::ClustersBuildArguments objects_build;
+    sim::ClustersInspectArguments objects_inspect;
+    sim::ObjectsCompareArguments objects_compare;
     sim::MeshBuildArguments mesh_build;
     sim::MeshExtractArguments mesh_extract;
     sim::MeshInspectArguments mesh_inspect;
@@ -81,6 +86,12 @@ void declare(CLI::App& app, Commands& commands) {
         objects, "generate", "a scene by seed, as GLB with a schedule, or FBX");
     commands.add<&A::objects_convert, sim::add_convert, sim::run_convert>(
         objects, "convert", "a model or city with its schedule, as GLB with a schedule, or FBX");
+    commands.add<&A::objects_build, sim::add_clusters_build, sim::run_clusters_build>(
+        objects, "build", "hierarchical levels of detail of a timed scene");
+    commands.add<&A::objects_inspect, sim::add_clusters_inspect, sim::run_clusters_inspect>(
+        objects, "inspect", "what a cluster file holds");
+    commands.add<&A::objects_compare, sim::add_objects_compare, sim::run_objects_compare>(
+        objects, "compare", "frame times with and without levels of detail");
 
     CLI::App& mesh = add_group(app, "mesh", "progressive meshes of instruments");
     commands.add<&A::mesh_build, sim::add_mesh_build, sim::run_mesh_build>(

@@ -100,7 +100,14 @@ ObjectSource read_objects(const toml::value& value, Reading& reading) {
     ObjectSource objects;
     reading.take_source(table, objects.source);
     objects.line = table.line();
+    std::vector<double> position;
+    double heading_deg = 0.0;
+    table.take("position", position, 2, 2);
+    table.take("height_m", objects.height_m, kHeight);
+    table.take("heading_deg", heading_deg, kAngle);
     table.finish();
+    if (position.size() == 2) objects.site = {position[0], position[1]};
+    objects.heading_rad = heading_deg * kRadPerDeg;
     return objects;
 }
 

@@ -29,10 +29,13 @@ struct BuildingSource {
     double default_height_m = 8.0;
 };
 
-/// [[objects]]
+/// [[objects]]: a cluster file. One that does not know its place on the Earth stands on the ground at `site`.
 struct ObjectSource {
     std::string source;
-    int line = 0;  ///< in the scene file
+    std::optional<glm::dvec2> site;  ///< longitude and latitude in degrees, or CRS x and y
+    double height_m = 0.0;           ///< above ground
+    double heading_rad = 0.0;        ///< clockwise from north
+    int line = 0;                    ///< in the scene file
 };
 
 /// [[edits]]: relief that changes at a time, in the order of times, then as listed.

@@ -12,6 +12,7 @@
 #include "data/polygon_mesh.h"
 #include "data/streets.h"
 #include "objects/buildings.h"
+#include "sim/cluster_site.h"
 #include "sim/ground_texture.h"
 #include "sim/model_parts.h"
 #include "sim/paged_terrain.h"
@@ -266,15 +267,10 @@ glm::dvec3 middle_of(const World& world) {
 lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldOptions& options) {
     auto world = std::make_unique<World>();
     world->scene = scene;
-    if (!scene.objects.empty()) {
-        return lod::Error{
-            fmt::format("{}:{}: [[objects]] {} is a cluster file, expected a scene without: buildings and "
-                        "models are read",
-                        scene.file, scene.objects.front().line, scene.objects.front().source)};
-    }
     if (scene.terrain) {
         if (auto built = build_terrain(*world, options); !built) return built.error();
     }
+    if (auto built = build_sites(*world); !built) return built.error();
     // Before the slow parts: a path that makes no sense is told at once.
     auto eyepoint =
         make_eyepoint(world->scene, options.trajectory, world->frame, world->ground.get(), world->notes);
