@@ -7,8 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "data/height_grid.h"
 #include "data/scenes/construction_site.h"
-#include "data/timed_scene_file.h"
+#include "objects/building_scene.h"
 #include "objects/clustering/cluster_build.h"
 #include "sim/cluster_file.h"
 #include "sim/command_values.h"
@@ -23,6 +24,16 @@ constexpr const char* kClassNames[] = {"static", "pseudo_dynamic", "dynamic"};
 
 uint64_t triangles_of(const objects::ClusterTree& tree, const objects::Cluster& cluster) {
     return cluster.geometry == objects::kNoGeometry ? 0 : tree.geometries[cluster.geometry].index_count / 3;
+}
+
+/// The scene to build from, its buildings on the terrain where there is one.
+lod::Result<data::TimedScene> scene_of(const ClustersBuildArguments& arguments) {
+    if (arguments.is_paper_scene) return data::generate_construction_site(kPaperSeed);
+    const data::TimedSceneOptions reading{.schedule = arguments.schedule};
+    if (arguments.terrain.empty()) return objects::read_timed_scene(arguments.source, reading);
+    const auto grid = data::read_height_grid(arguments.terrain, {});
+    if (!grid) return grid.error();
+    return objects::read_timed_scene(arguments.source, reading, {grid->frame.world(), &*grid});
 }
 
 /// What the clusters of one level are.
@@ -87,6 +98,8 @@ void add_clusters_build(CLI::App& app, ClustersBuildArguments& arguments) {
     app.add_option("--schedule", arguments.schedule,
                    "when objects appear, disappear and move; default: NAME.csv beside the scene")
         ->type_name("F.csv");
+    app.add_option("--terrain", arguments.terrain, "rasters of heights that buildings stand on")
+        ->type_name("DEM");
     app.add_option("--out", arguments.out, "file to write")->required()->type_name("F.hdlod");
     app.add_option("--levels", arguments.options.levels,
                    "of clusters; 0: as many doublings as lie between the objects' and the scene's size")
@@ -109,9 +122,7 @@ void add_clusters_build(CLI::App& app, ClustersBuildArguments& arguments) {
 lod::Result<lod::Ok> run_clusters_build(const ClustersBuildArguments& arguments) {
     if (auto writable = check_writable(arguments.out); !writable) return writable.error();
     const Stopwatch reading;
-    auto scene = arguments.is_paper_scene
-                     ? lod::Result<data::TimedScene>(data::generate_construction_site(kPaperSeed))
-                     : data::read_timed_scene(arguments.source, {.schedule = arguments.schedule});
+    const auto scene = scene_of(arguments);
     if (!scene) return scene.error();
     say_progress(
         fmt::format("scene: {} objects, read in {:.1f} s", scene->objects.size(), reading.seconds()));

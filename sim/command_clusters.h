@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "lod/base/result.h"
 #include "objects/clustering/build_options.h"
@@ -10,9 +11,10 @@
 namespace sim {
 
 struct ClustersBuildArguments {
-    std::string source;    ///< what data::read_timed_scene reads; empty: the paper's scene
+    std::string source;    ///< what objects::read_timed_scene reads; empty: the paper's scene
     std::string schedule;  ///< empty: beside the source, if there is one
     bool is_paper_scene = false;
+    std::vector<std::string> terrain;  ///< rasters that buildings stand on; empty: the ground is at height 0
     std::string out;
     objects::BuildOptions options;
     unsigned threads = 2;
