@@ -1,9 +1,8 @@
 #include "sim/model_parts.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <optional>
+
+#include "sim/model_bodies.h"
 
 namespace sim {
 
@@ -16,61 +15,6 @@ constexpr std::array kMaterials{lod::Material::kPaint, lod::Material::kGlow, lod
 size_t material_slot(const data::MeshMaterial& material) {
     if (material.colour.w < 0.5f) return 2;
     return material.emission > 0.5f ? 1 : 0;
-}
-
-std::optional<double> units_per_turn(const std::string& name) {
-    const size_t mark = name.rfind('_');
-    if (mark == std::string::npos) return std::nullopt;
-    double units = 0.0;
-    const char *begin = name.data() + mark + 1, *end = name.data() + name.size();
-    const auto [stop, error] = std::from_chars(begin, end, units);
-    if (error != std::errc() || stop != end || !std::isfinite(units) || units == 0.0) return std::nullopt;
-    return units;
-}
-
-/// Every node's body, and how its own frame lies in it.
-struct NodeBodies {
-    std::vector<uint32_t> body;
-    std::vector<glm::dmat4> body_from_node;
-};
-
-/// The rigid frame at a node: its origin, its z axis, and x and y made square to it.
-glm::dmat4 rigid_frame(const glm::dmat4& node) {
-    const glm::dvec3 z = glm::normalize(glm::dvec3(node[2]));
-    const glm::dvec3 across(node[0]);
-    const glm::dvec3 x = glm::normalize(across - z * glm::dot(across, z));
-    return {glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), node[3]};
-}
-
-const Drive* drive_of(const std::string& node, std::span<const Drive> drives) {
-    for (const Drive& drive : drives) {
-        if (drive.node == node) return &drive;
-    }
-    return nullptr;
-}
-
-/// Gives the node a body of its own when a drive names it, else its parent's.
-void assign_body(const data::MeshNode& node, const Drive* drive, NodeBodies& nodes, ModelParts& out) {
-    const bool is_root = node.parent < 0;
-    const size_t parent = is_root ? 0 : static_cast<size_t>(node.parent);
-    const uint32_t carrier = is_root ? 0 : nodes.body[parent];
-    const glm::dmat4 carrier_from_node =
-        (is_root ? glm::dmat4(1.0) : nodes.body_from_node[parent]) * node.parent_from_node;
-    if (drive == nullptr) {
-        nodes.body.push_back(carrier);
-        nodes.body_from_node.push_back(carrier_from_node);
-        return;
-    }
-    const glm::dmat4 frame = rigid_frame(carrier_from_node);
-    MovingBody moving{.body = static_cast<uint32_t>(out.bodies.size()), .parent = carrier};
-    moving.parent_from_rest = glm::dmat3(frame);
-    moving.origin_parent_m = glm::dvec3(frame[3]);
-    moving.signal = drive->signal;
-    moving.units_per_turn = *units_per_turn(node.name);
-    out.bodies.push_back(carried_by(out.bodies[carrier], moving.parent_from_rest, moving.origin_parent_m));
-    out.moving.push_back(moving);
-    nodes.body.push_back(moving.body);
-    nodes.body_from_node.push_back(glm::inverse(frame) * carrier_from_node);
 }
 
 /// Collects the triangles of one body and transparency; starts a new part when the open one is full.
@@ -122,12 +66,13 @@ class PartBuilder {
     std::array<std::vector<uint32_t>, kMaterials.size()> kept_;  ///< the current node's vertices in the part
 };
 
-void append_parts(const data::PolygonMesh& mesh, const NodeBodies& nodes, ModelParts& out) {
+void append_parts(const data::PolygonMesh& mesh, const ModelBodies& bodies, ModelParts& out) {
     for (const bool is_glass : {false, true}) {
         for (uint32_t body = 0; body < out.bodies.size(); ++body) {
             PartBuilder builder(mesh, body, is_glass, out.parts);
             for (size_t node = 0; node < mesh.nodes.size(); ++node) {
-                if (nodes.body[node] == body) builder.append(mesh.nodes[node], nodes.body_from_node[node]);
+                if (bodies.body_of_node[node] == body)
+                    builder.append(mesh.nodes[node], bodies.body_from_node[node]);
             }
         }
     }
@@ -137,22 +82,13 @@ void append_parts(const data::PolygonMesh& mesh, const NodeBodies& nodes, ModelP
 
 lod::Result<ModelParts> make_model_parts(const data::PolygonMesh& mesh, const lod::BodyPose& placement,
                                          std::span<const Drive> drives) {
-    ModelParts model;
-    model.bodies.push_back(placement);
-    for (const Drive& drive : drives) {
-        if (!units_per_turn(drive.node)) {
-            return lod::Error{"drive " + drive.node +
-                              ": expected a name that ends in _ and its units per turn"};
-        }
-        bool is_found = false;
-        for (const data::MeshNode& node : mesh.nodes)
-            is_found |= node.name == drive.node;
-        if (!is_found) return lod::Error{"drive " + drive.node + ": the model has no node of that name"};
-    }
-    NodeBodies nodes;
+    std::vector<ModelNode> nodes;
     for (const data::MeshNode& node : mesh.nodes)
-        assign_body(node, drive_of(node.name, drives), nodes, model);
-    append_parts(mesh, nodes, model);
+        nodes.push_back({node.name, node.parent, node.parent_from_node});
+    lod::Result<ModelBodies> bodies = make_model_bodies(nodes, placement, drives);
+    if (!bodies) return bodies.error();
+    ModelParts model{{}, bodies->bodies, bodies->moving};
+    append_parts(mesh, *bodies, model);
     return model;
 }
 

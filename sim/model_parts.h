@@ -1,8 +1,6 @@
 // ModelParts: a polygon mesh as bodies and parts for a RigidFront.
 //
-// Body 0 is everything that does not move. Every node named by a drive becomes a body of its own and carries its
-// descendants. A body's frame has the node's origin and its axes made orthonormal (z kept); whatever scale or
-// shear the file put into its nodes is worked into the vertices.
+// Whatever scale or shear the file put into its nodes (model_bodies.h) is worked into the vertices.
 #pragma once
 
 #include <span>

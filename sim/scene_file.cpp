@@ -128,16 +128,6 @@ std::vector<double> take_placed(TomlTable& table, const Reading& reading, const 
     return place;
 }
 
-ModelSource read_model(const toml::value& value, Reading& reading) {
-    TomlTable table(value, "[[models]]", reading.problem);
-    ModelSource model;
-    const std::vector<double> position = take_placed(table, reading, "position", 2, model);
-    table.take("height_m", model.height_m, kHeight);
-    table.finish();
-    model.site = {position[0], position[1]};
-    return model;
-}
-
 std::vector<Drive> read_drives(const toml::value& value, Reading& reading) {
     TomlTable table(value, "drives", reading.problem);
     std::vector<Drive> drives;
@@ -152,6 +142,17 @@ std::vector<Drive> read_drives(const toml::value& value, Reading& reading) {
         drives.push_back({node, signal});
     }
     return drives;
+}
+
+ModelSource read_model(const toml::value& value, Reading& reading) {
+    TomlTable table(value, "[[models]]", reading.problem);
+    ModelSource model;
+    const std::vector<double> position = take_placed(table, reading, "position", 2, model);
+    table.take("height_m", model.height_m, kHeight);
+    if (const toml::value* drives = table.take_table("drives")) model.drives = read_drives(*drives, reading);
+    table.finish();
+    model.site = {position[0], position[1]};
+    return model;
 }
 
 InstrumentSource read_instrument(const toml::value& value, Reading& reading) {

@@ -52,19 +52,20 @@ struct EditSource {
     int line = 0;            ///< in the scene file
 };
 
-/// [[models]]: stands on the ground.
-struct ModelSource {
-    std::string source;
-    glm::dvec2 site{0.0};      ///< longitude and latitude in degrees, or CRS x and y
-    double height_m = 0.0;     ///< above ground
-    double heading_rad = 0.0;  ///< clockwise from north
-    double scale = 1.0;        ///< > 0
-};
-
-/// Which signal (signals.h) moves a part of an instrument.
+/// Which signal (signals.h) moves a part of a model or an instrument.
 struct Drive {
     std::string node;  ///< name of the part in the model file
     int signal = 0;    ///< into kSignalNames
+};
+
+/// [[models]]: stands on the ground.
+struct ModelSource {
+    std::string source;
+    glm::dvec2 site{0.0};       ///< longitude and latitude in degrees, or CRS x and y
+    double height_m = 0.0;      ///< above ground
+    double heading_rad = 0.0;   ///< clockwise from north
+    double scale = 1.0;         ///< > 0
+    std::vector<Drive> drives;  ///< sorted by node
 };
 
 /// [[instruments]]: fixed in the cockpit.

@@ -51,17 +51,24 @@ glm::dmat3 head_from_craft(const HeadPose& head) {
     return glm::transpose(glm::dmat3(right, glm::cross(right, ahead), -ahead));
 }
 
-/// Needles to their signals, instruments to where the head sees them.
-void move_instruments(World& world, const Shot& shot) {
-    if (!world.instruments) return;
-    move_bodies(world.cockpit.moving, signals_of(world, shot.state, shot.time_s), world.cockpit.poses);
+/// Needles to their signals, on models and on instruments; instruments to where the head sees them.
+void move_needles(World& world, const Shot& shot) {
+    if (!world.instruments && !world.panel && world.models_rig.moving.empty()) return;
+    const Signals signals = signals_of(world, shot.state, shot.time_s);
+    if (!world.models_rig.moving.empty()) {
+        move_bodies(world.models_rig.moving, signals, world.models_rig.poses);
+        pose_bodies(world.models_rig, glm::dmat3(1.0), glm::dvec3(0.0), *world.models);
+    }
     const glm::dmat3 turn = head_from_craft(shot.head);
+    move_bodies(world.cockpit.moving, signals, world.cockpit.poses);
     for (size_t body = 0; body < world.cockpit.poses.size(); ++body) {
         lod::BodyPose pose = world.cockpit.poses[body];
         pose.reference_from_body = turn * pose.reference_from_body;
         pose.origin = turn * (pose.origin - shot.head.position_m);
         world.instruments->set_pose(static_cast<uint32_t>(body), pose);
     }
+    move_bodies(world.panel_rig.moving, signals, world.panel_rig.poses);
+    if (world.panel) pose_bodies(world.panel_rig, turn, shot.head.position_m, *world.panel);
 }
 
 render::Atmosphere atmosphere_of(const World& world, const Shot& shot, const glm::dvec3& up_world) {
@@ -205,7 +212,7 @@ lod::Result<FrameRecord> make_frame(Stage& stage, const Shot& shot, const Allowa
     bring_relief_to(stage, shot.schedule_s);
     const lod::View view = view_of(world, stage.optics, shot.state, shot.head);
     const glm::dvec3 up_world = world.frame.world_from_enu(view.eye_world)[2];
-    move_instruments(world, shot);
+    move_needles(world, shot);
     for (const WorldFront& member : stage.members)
         member.front->begin_frame({&view, 1}, member.follows_schedule ? shot.schedule_s : shot.shown_s);
     record.update_ms = total.ms();

@@ -9,15 +9,14 @@
 #include <numbers>
 
 #include "data/ground_height.h"
-#include "data/polygon_mesh.h"
 #include "data/streets.h"
 #include "objects/buildings.h"
 #include "sim/cluster_site.h"
 #include "sim/ground_texture.h"
-#include "sim/model_parts.h"
 #include "sim/paged_terrain.h"
 #include "sim/progress.h"
 #include "sim/sunlight.h"
+#include "sim/world_models.h"
 #include "terrain/roam_front.h"
 
 namespace sim {
@@ -165,74 +164,21 @@ lod::Result<lod::Ok> add_buildings(World& world, const BuildingSource& source, M
     return lod::Ok{};
 }
 
-/// Reads a model and says what it lost on the way.
-lod::Result<data::PolygonMesh> read_model(World& world, const std::string& path) {
-    data::PolygonMeshStats stats;
-    lod::Result<data::PolygonMesh> mesh = data::read_polygon_mesh(path, &stats);
-    if (mesh && !stats.missing_files.empty()) {
-        world.notes.push_back(
-            fmt::format("{}: drawn in plain colours: {} of its textures or material files cannot be read, "
-                        "the first is '{}'; expected it beside the model",
-                        path, stats.missing_files.size(), stats.missing_files.front()));
-    }
-    if (mesh) say_progress(fmt::format("model: {}, {} triangles", path, mesh->triangle_count()));
-    return mesh;
-}
-
-lod::BodyPose standing_pose(const World& world, const ModelSource& source) {
-    data::SitePoint site{source.site.x, source.site.y, 0.0};
-    site.height_m = ground_height_m(world, site) + source.height_m;
-    return placed_pose(world.frame, site, source.heading_rad, source.scale);
-}
-
-lod::Result<lod::Ok> add_model(World& world, const ModelSource& source, ModelParts& objects) {
-    lod::Result<data::PolygonMesh> mesh = read_model(world, source.source);
-    if (!mesh) return mesh.error();
-    const lod::BodyPose pose = standing_pose(world, source);
-    lod::Result<ModelParts> parts = make_model_parts(*mesh, pose, {});
-    if (!parts) return lod::Error{source.source + ": " + parts.message()};
-    world.standing_models.push_back({source, static_cast<uint32_t>(objects.bodies.size())});
-    append_model(*parts, objects);
-    return lod::Ok{};
-}
-
-lod::Result<lod::Ok> add_instrument(World& world, const InstrumentSource& source, ModelParts& panel) {
-    lod::Result<data::PolygonMesh> mesh = read_model(world, source.source);
-    if (!mesh) return mesh.error();
-    const lod::BodyPose pose = cockpit_pose(source.position_eye_m, source.heading_rad, source.scale);
-    lod::Result<ModelParts> parts = make_model_parts(*mesh, pose, source.drives);
-    if (!parts) return lod::Error{source.source + ": " + parts.message()};
-    append_model(*parts, panel);
-    return lod::Ok{};
-}
-
-lod::Result<lod::Ok> build_objects(World& world) {
+lod::Result<lod::Ok> build_objects(World& world, const WorldOptions& options) {
     const Scene& scene = world.scene;
     if (scene.buildings.empty() && scene.models.empty()) return lod::Ok{};
-    ModelParts objects;
-    objects.bodies.emplace_back();  // the world itself: buildings stand in it
+    SceneModels objects;
+    objects.rigid.bodies.emplace_back();  // the world itself: buildings stand in it
     for (const BuildingSource& source : scene.buildings) {
-        if (auto added = add_buildings(world, source, objects); !added) return added.error();
+        if (auto added = add_buildings(world, source, objects.rigid); !added) return added.error();
     }
-    for (const ModelSource& source : scene.models) {
-        if (auto added = add_model(world, source, objects); !added) return added.error();
+    if (auto added = add_models(world, options, objects); !added) return added.error();
+    ModelParts& rigid = objects.rigid;
+    world.item_count += static_cast<uint32_t>(rigid.parts.size());
+    if (!rigid.parts.empty()) {
+        world.objects = std::make_unique<lod::RigidFront>(lod::Module::kObjects, std::move(rigid.parts),
+                                                          std::move(rigid.bodies));
     }
-    world.item_count += static_cast<uint32_t>(objects.parts.size());
-    world.objects = std::make_unique<lod::RigidFront>(lod::Module::kObjects, std::move(objects.parts),
-                                                      std::move(objects.bodies));
-    return lod::Ok{};
-}
-
-lod::Result<lod::Ok> build_instruments(World& world) {
-    if (world.scene.instruments.empty()) return lod::Ok{};
-    ModelParts panel;
-    for (const InstrumentSource& source : world.scene.instruments) {
-        if (auto added = add_instrument(world, source, panel); !added) return added.error();
-    }
-    world.item_count += static_cast<uint32_t>(panel.parts.size());
-    world.cockpit = {std::move(panel.moving), panel.bodies};
-    world.instruments = std::make_unique<lod::RigidFront>(lod::Module::kInstruments, std::move(panel.parts),
-                                                          std::move(panel.bodies));
     return lod::Ok{};
 }
 
@@ -250,8 +196,15 @@ void settle_objects(World& world, const data::SampleRange& changed) {
             world.buildings[standing.first_base + i] = site.base_world;
         }
     }
-    for (const StandingModel& model : world.standing_models)
-        world.objects->set_pose(model.body, standing_pose(world, model.source));
+    for (const StandingModel& model : world.standing_models) {
+        const lod::BodyPose pose = standing_pose(world, model.source);
+        if (model.adapts) {
+            world.models_rig.poses[model.body] = pose;
+        } else {
+            world.objects->set_pose(model.body, pose);
+        }
+    }
+    if (world.models) pose_bodies(world.models_rig, glm::dmat3(1.0), glm::dvec3(0.0), *world.models);
 }
 
 /// The place whose east, north and up the sun's direction is given in.
@@ -276,8 +229,8 @@ lod::Result<std::unique_ptr<World>> build_world(const Scene& scene, const WorldO
         make_eyepoint(world->scene, options.trajectory, world->frame, world->ground.get(), world->notes);
     if (!eyepoint) return eyepoint.error();
     world->eyepoint = std::move(*eyepoint);
-    if (auto built = build_objects(*world); !built) return built.error();
-    if (auto built = build_instruments(*world); !built) return built.error();
+    if (auto built = build_objects(*world, options); !built) return built.error();
+    if (auto built = build_instruments(*world, options); !built) return built.error();
     if (scene.terrain) {
         auto painted = options.has_picture ? paint_terrain(*world, options)
                                            : plan_edits(*world, nullptr, options.threads);
@@ -310,8 +263,10 @@ std::vector<WorldFront> fronts_of(const World& world) {
     if (world.objects) fronts.push_back({world.objects.get(), lod::Module::kObjects, false, false});
     for (const auto& site : world.sites)
         fronts.push_back({site.get(), lod::Module::kObjects, true, true});
+    if (world.models) fronts.push_back({world.models.get(), lod::Module::kObjects, true, false});
     if (world.instruments)
         fronts.push_back({world.instruments.get(), lod::Module::kInstruments, false, false});
+    if (world.panel) fronts.push_back({world.panel.get(), lod::Module::kInstruments, true, false});
     return fronts;
 }
 

@@ -14,6 +14,7 @@
 #include "objects/buildings.h"
 #include "objects/cluster_front.h"
 #include "render/renderer.h"
+#include "sim/adaptive_models.h"
 #include "sim/eyepoint.h"
 #include "sim/model_pose.h"
 #include "sim/relief_timeline.h"
@@ -54,7 +55,8 @@ struct StandingBuildings {
 /// A model that stands on the ground.
 struct StandingModel {
     ModelSource source;
-    uint32_t body = 0;  ///< in the front of objects
+    uint32_t body = 0;    ///< in the front of objects, or in World::models_rig.poses
+    bool adapts = false;  ///< the latter
 };
 
 /// Move-only; fronts refer to the ground, which keeps its address.
@@ -67,8 +69,12 @@ struct World {
     std::unique_ptr<terrain::RoamFront> terrain;
     std::unique_ptr<lod::RigidFront> objects;
     std::vector<std::unique_ptr<objects::ClusterFront>> sites;  ///< of [[objects]], as the scene lists them
+    std::unique_ptr<lod::MeshFront> models;                     ///< large ones, which adapt (world_models.h)
+    AdaptiveRig models_rig;                                     ///< in the world
     std::unique_ptr<lod::RigidFront> instruments;
     Cockpit cockpit;
+    std::unique_ptr<lod::MeshFront> panel;  ///< instruments that adapt
+    AdaptiveRig panel_rig;                  ///< in the cockpit's frame
     Eyepoint eyepoint;
     data::Image ground_colours;  ///< empty without terrain or picture; not needed once a renderer has them
     ReliefTimeline relief;       ///< the scene's edits; none: nothing below is kept

@@ -30,6 +30,7 @@ position = [7.42, 43.73]
 height_m = 1.5
 heading_deg = 90.0
 scale   = 2.0
+drives  = { needle_60 = "time_s" }
 [[instruments]]
 source  = "altimeter.glb"
 position_m = [0.0, -0.25, -0.6]
@@ -63,6 +64,8 @@ TEST(SceneFile, ReadsEverythingTheContractNames) {
     ASSERT_EQ(scene->models.size(), 1u);
     EXPECT_EQ(scene->models[0].site, glm::dvec2(7.42, 43.73));
     EXPECT_DOUBLE_EQ(scene->models[0].heading_rad, std::numbers::pi / 2);
+    ASSERT_EQ(scene->models[0].drives.size(), 1u);
+    EXPECT_EQ(scene->models[0].drives[0].node, "needle_60");
     ASSERT_EQ(scene->instruments.size(), 1u);
     const auto& drives = scene->instruments[0].drives;
     ASSERT_EQ(drives.size(), 2u);
