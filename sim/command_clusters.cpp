@@ -64,11 +64,11 @@ nlohmann::json levels_of(const objects::ClusterTree& tree) {
 }
 
 nlohmann::json facts_of(const objects::ClusterTree& tree) {
-    std::array<uint64_t, 3> object_counts{}, triangle_counts{};
+    std::array<uint64_t, 3> leaf_counts{}, triangle_counts{};
     for (objects::ClusterId id = 0; id < tree.clusters.size(); ++id) {
         const objects::Cluster& cluster = tree.clusters[id];
         if (!tree.is_leaf(id) || cluster.object == objects::kNoObject) continue;
-        ++object_counts[static_cast<size_t>(cluster.motion_class)];
+        ++leaf_counts[static_cast<size_t>(cluster.motion_class)];
         triangle_counts[static_cast<size_t>(cluster.motion_class)] += triangles_of(tree, cluster);
     }
     nlohmann::json json = {{"objects", tree.object_count},
@@ -81,7 +81,7 @@ nlohmann::json facts_of(const objects::ClusterTree& tree) {
                            {"size_m", tree.clusters[objects::kRootCluster].size_m},
                            {"levels", levels_of(tree)}};
     for (size_t i = 0; i < 3; ++i)
-        json[kClassNames[i]] = {{"objects", object_counts[i]}, {"triangles", triangle_counts[i]}};
+        json[kClassNames[i]] = {{"leaves", leaf_counts[i]}, {"triangles", triangle_counts[i]}};
     return json;
 }
 

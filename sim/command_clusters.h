@@ -31,7 +31,7 @@ struct ClustersInspectArguments {
 
 void add_clusters_inspect(CLI::App& app, ClustersInspectArguments& arguments);
 
-/// Prints one line of JSON: objects and triangles by class, clusters and errors by level, sizes.
+/// Prints one line of JSON: leaves and triangles by class (an object that rests between moves is several leaves), clusters and errors by level, sizes.
 lod::Result<lod::Ok> run_clusters_inspect(const ClustersInspectArguments& arguments);
 
 }  // namespace sim

@@ -103,6 +103,7 @@ void add_demo(CLI::App& app, DemoArguments& arguments) {
         ->type_name("DIR")
         ->capture_default_str();
     add_schedule(app, arguments.schedule);
+    add_batch(app, arguments.batch);
     add_threads(app, arguments.threads);
 }
 
@@ -114,6 +115,7 @@ lod::Result<lod::Ok> run_demo(const DemoArguments& arguments) {
     if (auto folder = make_folder(arguments.out); !folder) return folder.error();
     WorldOptions building;
     building.tolerance_px = kTolerance_px;
+    building.batch = arguments.batch;
     building.threads = arguments.threads;
     building.reserve_triangles = reserve_for({});
     auto world = build_world(*scene, building);

@@ -6,6 +6,7 @@
 
 #include "lod/base/result.h"
 #include "sim/schedule_options.h"
+#include "sim/world.h"
 
 namespace sim {
 
@@ -13,6 +14,7 @@ struct DemoArguments {
     std::string scene;        ///< empty: the bundled one
     std::string out = "out";  ///< folder
     ScheduleArguments schedule;
+    int batch = WorldOptions{}.batch;  ///< k of the terrain's leaves
     unsigned threads = 2;
 };
 

@@ -99,6 +99,7 @@ void add_fly(CLI::App& app, FlyArguments& arguments) {
     app.add_option("--ops", arguments.operations,
                    "deterministic: this many operations a frame, no clock decides")
         ->type_name("N");
+    add_batch(app, arguments.batch);
     add_threads(app, arguments.threads);
     app.add_option("--report", arguments.report, "write a frame report, JSON")->type_name("FILE.json");
     app.add_option("--images", arguments.images, "write pictures into this folder, PNG")->type_name("DIR");
@@ -136,6 +137,7 @@ lod::Result<lod::Ok> run_fly(const FlyArguments& arguments) {
     WorldOptions building;
     building.tolerance_px = arguments.tolerance_px;
     building.glide_s = arguments.glide_s;
+    building.batch = arguments.batch;
     building.threads = arguments.threads;
     building.reserve_triangles = reserve_for(options);
     building.trajectory = arguments.trajectory;

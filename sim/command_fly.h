@@ -25,6 +25,7 @@ struct FlyArguments {
     double tolerance_px = 1.0;
     double glide_s = WorldOptions{}.glide_s;
     std::optional<uint64_t> operations;
+    int batch = WorldOptions{}.batch;  ///< k of the terrain's leaves
     unsigned threads = 2;
     std::string report;
     std::string images;

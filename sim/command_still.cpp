@@ -106,6 +106,7 @@ void add_still(CLI::App& app, StillArguments& arguments) {
         ->type_name("N");
     app.add_option("--ops", arguments.operations, "stop after this many operations; default: when converged")
         ->type_name("N");
+    add_batch(app, arguments.batch);
     add_threads(app, arguments.threads);
     app.add_option("--image", arguments.image, "write the picture, PNG")->type_name("F.png");
     app.add_option("--depth", arguments.depth, "write metres along the line of sight, float GeoTIFF")
@@ -120,6 +121,7 @@ lod::Result<lod::Ok> run_still(const StillArguments& arguments) {
     if (auto outputs = check_outputs(arguments); !outputs) return outputs.error();
     WorldOptions building;
     building.tolerance_px = arguments.tolerance_px;
+    building.batch = arguments.batch;
     building.threads = arguments.threads;
     building.has_picture = !arguments.image.empty();
     building.waits_for_pages = true;

@@ -8,6 +8,7 @@
 
 #include "lod/base/result.h"
 #include "sim/command_values.h"
+#include "sim/world.h"
 
 namespace sim {
 
@@ -19,6 +20,7 @@ struct StillArguments {
     double tolerance_px = 1.0;
     Size size{1280, 720};
     std::optional<uint64_t> triangles, operations;
+    int batch = WorldOptions{}.batch;  ///< k of the terrain's leaves
     unsigned threads = 2;
     std::string image, depth, geometry;  ///< files to write
 };

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <thread>
 
+#include "terrain/batched_errors.h"
+
 namespace sim {
 namespace {
 
@@ -73,6 +75,17 @@ CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<dou
     };
     const auto read = [&out, count](const std::string& text) { parse_numbers(text, count, out); };
     return app.add_option_function<std::string>(name, read, description)->check(check, "");
+}
+
+CLI::Option* add_batch(CLI::App& app, int& out) {
+    return app
+        .add_option(
+            "--batch", out,
+            "each leaf of the terrain's mesh is drawn as 4^K triangles; above 0 vertices do not glide, and "
+            "the terrain is no store")
+        ->check(CLI::Range(0, terrain::kMostBatch))
+        ->type_name("K")
+        ->capture_default_str();
 }
 
 CLI::Option* add_threads(CLI::App& app, unsigned& out) {

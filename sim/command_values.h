@@ -22,6 +22,9 @@ CLI::Option* add_size(CLI::App& app, Size& out);
 CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& out, size_t count,
                          const std::string& description);
 
+/// --batch K; the default is what measured best (docs/batched_leaves.md).
+CLI::Option* add_batch(CLI::App& app, int& out);
+
 /// --threads N; the default is what the machine has.
 CLI::Option* add_threads(CLI::App& app, unsigned& out);
 

@@ -19,6 +19,11 @@ lod::Result<PagedTerrain> open_paged_terrain(const TerrainSource& source, const 
             fmt::format("terrain: {} sources, one of them a terrain store; expected it to be the only one",
                         source.sources.size())};
     }
+    if (roam.batch > 0) {
+        return lod::Error{
+            fmt::format("{}: --batch {}, expected 0: a patch's samples may lie in pages that are not here",
+                        source.sources.front(), roam.batch)};
+    }
     const Stopwatch watch;
     auto store = terrain::StoreFile::open(source.sources.front());
     if (!store) return store.error();

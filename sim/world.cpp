@@ -28,7 +28,8 @@ terrain::RoamOptions roam_options(const WorldOptions& options) {
     terrain::RoamOptions roam;
     roam.tolerance_px = options.tolerance_px;
     roam.threads = options.threads;
-    roam.glide_s = options.glide_s;
+    roam.batch = options.batch;
+    roam.glide_s = options.batch == 0 ? options.glide_s : 0.0;
     // What glides back is drawn beyond the budget.
     roam.reserve_triangles = options.reserve_triangles * 5 / 4;
     return roam;
@@ -54,6 +55,11 @@ lod::Result<lod::Ok> build_terrain(World& world, const WorldOptions& options) {
                             world.scene.file, world.scene.edits.front().line)};
         }
         return build_paged_terrain(world, options);
+    }
+    if (!world.scene.edits.empty() && options.batch > 0) {
+        return lod::Error{fmt::format(
+            "{}:{}: [[edits]] with --batch {}; expected 0: leaves of many triangles do not change",
+            world.scene.file, world.scene.edits.front().line, options.batch)};
     }
     const Stopwatch watch;
     data::HeightGridOptions reading;

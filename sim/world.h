@@ -29,6 +29,7 @@ struct WorldOptions {
     /// Vertices take this long to their place; 0: they jump. Sooner than this, and a near place that comes into
     /// view would move by more than half a pixel a frame (tests/sim/popping_test.cpp).
     double glide_s = 0.6;
+    int batch = 0;         ///< leaves of the terrain are drawn as 4^batch triangles; above 0 nothing glides
     unsigned threads = 2;  ///< for the error computation and the ground's colours; changes no result
     uint64_t reserve_triangles = 0;  ///< the terrain front allocates nothing below this many
     bool has_picture = true;         ///< false: nobody looks, the ground is not painted

@@ -16,13 +16,14 @@ const std::string kJacksboro = std::string(HARRIER_SOURCE_DIR) + "/data/samples/
 const std::string kBigTujunga =
     std::string(HARRIER_SOURCE_DIR) + "/../shared/data/terrain/srtm_bigtujunga30m_utm11.tif";
 
-void expect_no_roam_cracks(const std::string& path, const CrackTrial& trial, double glide_s) {
+void expect_no_roam_cracks(const std::string& path, const CrackTrial& trial, double glide_s, int batch = 0) {
     const auto grid = data::read_height_grid({path}, {});
     ASSERT_TRUE(grid) << grid.message();
     terrain::RoamFront front(terrain::make_diamond_table(*grid, 2),
                              {.tolerance_px = 1.0,
                               .reserve_triangles = 3 * sim_test::CrackRig::kMostTriangles,
-                              .glide_s = glide_s});
+                              .glide_s = glide_s,
+                              .batch = batch});
     CrackTally sum;
     expect_no_cracks(*grid, front, trial, sum);
     if (testing::Test::IsSkipped()) return;
@@ -44,6 +45,16 @@ TEST(Cracks, NoneOverBigTujungaWhileVerticesGlide) {
     if (!std::ifstream(kBigTujunga)) GTEST_SKIP() << kBigTujunga << " is not on this machine";
     expect_no_roam_cracks(kBigTujunga, {1800, 24}, 0.4);
 }
+
+/// Leaves drawn as 4^k triangles.
+class BatchCracks : public testing::TestWithParam<int> {};
+
+TEST_P(BatchCracks, None) {
+    expect_no_roam_cracks(kJacksboro, {1800, 25}, 0.0, GetParam());
+    if (std::ifstream(kBigTujunga)) expect_no_roam_cracks(kBigTujunga, {1800, 26}, 0.0, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(K, BatchCracks, testing::Values(1, 2, 3));
 
 /// 3,600 pictures of each rival, half of them in either test.
 class RivalCracks : public testing::TestWithParam<std::tuple<Rival, uint64_t>> {};
