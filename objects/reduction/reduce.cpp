@@ -8,6 +8,7 @@
 #include "lod/surface/surface_distance.h"
 #include "objects/reduction/contraction.h"
 #include "objects/reduction/cover.h"
+#include "objects/reduction/recolour.h"
 
 namespace objects {
 
@@ -93,6 +94,7 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     if (failures.size() > 0) mend(source, failures, limit_m, result);
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
+    recolour(source, limit_m, result);
     return result;
 }
 

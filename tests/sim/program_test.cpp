@@ -90,7 +90,7 @@ TEST_F(Program, MissingSources) {
     expect_refused(still(relief_ + "[[models]]\nsource = \"none.glb\"\nposition = [5, 5]\n"), "none.glb");
     expect_refused(still(relief_ + "[[instruments]]\nsource = \"none.ac\"\nposition_m = [0, 0, -1]\n"),
                    "none.ac");
-    expect_refused(still(relief_ + "[[objects]]\nsource = \"none.hdlod\"\n"), "scene.toml:3: ");
+    expect_refused(still(relief_ + "[[objects]]\nsource = \"none.hdlod\"\n"), "none.hdlod");
 }
 
 TEST_F(Program, MissingTrajectory) {

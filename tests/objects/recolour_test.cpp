@@ -1,0 +1,49 @@
+#include "objects/reduction/recolour.h"
+
+#include <gtest/gtest.h>
+
+namespace objects {
+namespace {
+
+/// A rectangle in the plane y = depth, facing -y.
+void add_rectangle(glm::dvec2 low, glm::dvec2 high, double depth, glm::u8vec4 colour, FaceSoup& soup) {
+    const auto first = static_cast<uint32_t>(soup.points.size());
+    for (const glm::dvec2 p : {low, glm::dvec2(high.x, low.y), high, glm::dvec2(low.x, high.y)})
+        soup.points.emplace_back(p.x, depth, p.y);
+    soup.faces.push_back({first, first + 1, first + 2});
+    soup.faces.push_back({first, first + 2, first + 3});
+    soup.colours.insert(soup.colours.end(), 2, colour);
+}
+
+TEST(Recolour, WallsDarkenByTheWindowsTheyStandFor) {
+    FaceSoup house;
+    // Bands of window and of wall, two metres each, ten metres wide.
+    for (int band = 0; band < 10; ++band) {
+        const glm::u8vec4 colour =
+            band % 2 == 0 ? glm::u8vec4(200, 200, 200, 255) : glm::u8vec4(40, 40, 80, 255);
+        add_rectangle({0.0, 2.0 * band}, {10.0, 2.0 * band + 2.0}, 0.0, colour, house);
+    }
+    FaceSoup wall;
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.05, {200, 200, 200, 255}, wall);
+    recolour(house, 0.2, wall);
+    // Light, not numbers: sqrt((200² + 40²) / 2) = 144, sqrt((200² + 80²) / 2) = 152.
+    for (const glm::u8vec4& colour : wall.colours) {
+        EXPECT_NEAR(colour.x, 144, 12);
+        EXPECT_NEAR(colour.z, 152, 12);
+        EXPECT_EQ(colour.w, 255);
+    }
+}
+
+TEST(Recolour, WhatIsFarOrFacesElsewhereDoesNotCount) {
+    FaceSoup source;
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.0, {255, 0, 0, 255}, source);  // beyond the limit
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.1, {0, 255, 0, 128}, source);  // glass
+    FaceSoup wall;
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.0, {10, 20, 30, 255}, wall);
+    recolour(source, 0.5, wall);
+    for (const glm::u8vec4& colour : wall.colours)
+        EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 255));
+}
+
+}  // namespace
+}  // namespace objects
