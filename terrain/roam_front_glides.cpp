@@ -63,15 +63,7 @@ bool RoamFront::start_glide(DiamondIndex index, bool leaves) {
 bool RoamFront::is_watched(DiamondIndex index) const {
     const std::span<const AnchoredEye> now = odometer_.eyes(), before = odometer_.eyes_before();
     const DiamondBound diamond = bound(index);
-    float radius_m = diamond.radius_m;
-    if (!glides_.is_empty()) {  // its corners may be under way
-        const std::array<DiamondIndex, 2> ends = mesh_.edge_ends(index);
-        for (DiamondIndex corner : {ends[0], ends[1], mesh_[index].parent[0], mesh_[index].parent[1]}) {
-            if (!is_record(corner)) continue;
-            const float way_m = glm::length(glides_.displacement_m(corner, mesh_[corner].level));
-            radius_m = std::max(radius_m, diamond.radius_m + way_m);
-        }
-    }
+    const float radius_m = diamond.radius_m + glides_.farthest_m();  // its corners may be under way
     const auto sees = [&](const AnchoredEye& eye) {
         return eye.distance_outside_m(eye.to_eye(diamond.centre), radius_m) <= 0.0f;
     };
