@@ -27,7 +27,6 @@ bool has_same_optics(const ViewMetric& a, const ViewMetric& b) {
 
 EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::dvec3& anchor_world) {
     bool is_comparable = views.size() == eyes_.size();
-    eyes_before_ = eyes_;
     double step_m = 0.0, step_rad = 0.0;
     for (size_t i = 0; i < views.size(); ++i) {
         const AnchoredEye now(views[i], anchor_world);
@@ -40,7 +39,6 @@ EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::d
         step_m = std::max(step_m, glm::length(now.eye - then.eye));
         step_rad = std::max(step_rad, rotation_chord(now.metric.eye_from_world, then.metric.eye_from_world));
     }
-    if (!is_comparable) eyes_before_.clear();
     eyes_.erase(eyes_.begin() + static_cast<std::ptrdiff_t>(views.size()), eyes_.end());
     walked_m_ += step_m;
     turned_rad_ += step_rad;

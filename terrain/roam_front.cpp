@@ -156,8 +156,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     grow_arrays();
     tessellator_.add_vertex(index);
     note_change(index, true);
-    // What nobody saw a moment ago is where it belongs at once: no gliding in from the picture's edge.
-    if (!is_gliding(index) || !is_watched(index) || !start_glide(index, false)) note_pop(index);
+    if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
         if (queue_of(parent) == Queue::kLeave) stay(parent);

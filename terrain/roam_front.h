@@ -161,7 +161,6 @@ class RoamFront final : public lod::Front {
     bool is_on_fresh_ground(DiamondIndex index) const;
     bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
-    bool is_watched(DiamondIndex index) const;
     void note_pop(DiamondIndex index);
     uint32_t parents_of(DiamondIndex index) const;
     bool is_idle(DiamondIndex index) const {

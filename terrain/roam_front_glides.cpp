@@ -59,23 +59,9 @@ bool RoamFront::start_glide(DiamondIndex index, bool leaves) {
     return true;
 }
 
-/// Whether some eye may have seen a diamond's surface in the last frame and see it now; otherwise nobody sees it move.
-bool RoamFront::is_watched(DiamondIndex index) const {
-    const std::span<const AnchoredEye> now = odometer_.eyes(), before = odometer_.eyes_before();
-    const DiamondBound diamond = bound(index);
-    const float radius_m = diamond.radius_m + glides_.farthest_m();  // its corners may be under way
-    const auto sees = [&](const AnchoredEye& eye) {
-        return eye.distance_outside_m(eye.to_eye(diamond.centre), radius_m) <= 0.0f;
-    };
-    for (size_t i = 0; i < before.size(); ++i) {
-        if (sees(now[i]) && sees(before[i])) return true;
-    }
-    return false;
-}
-
 /// A vertex in view that appears or goes without a glide, not in a cut, jumps by what its diamond may be wrong.
 void RoamFront::note_pop(DiamondIndex index) {
-    if (is_cut_ || bucket_of(index) <= kFlatBucket || !is_watched(index)) return;
+    if (is_cut_ || bucket_of(index) <= kFlatBucket) return;
     jump_px_ = std::max(jump_px_, static_cast<double>(scale_.upper_px(bucket_of(index))));
 }
 
