@@ -132,9 +132,11 @@ void note_frame(const Rig& rig, const Spent& paged, const Spent& whole, Flight& 
 }
 
 /// A front's part of the pool, the n-th of equals: room for the most triangles there may be.
-lod::PoolRegion region_of(uint32_t n) {
-    constexpr uint32_t kVertices = kMaxTriangles * 5 / 4, kIndices = 3 * kMaxTriangles;
-    return {n * kVertices, kVertices, n * kIndices, kIndices};
+lod::PoolRegion region_of(const terrain::RoamFront& front, uint32_t n) {
+    lod::PoolRegion region = front.pool_need();
+    region.first_vertex = n * region.vertex_capacity;
+    region.first_index = n * region.index_capacity;
+    return region;
 }
 
 /// The whole raster needs a region of its own; what is drawn next is written anew.
@@ -143,7 +145,7 @@ void check(const Rig& rig, const lod::View& view, double time_s, Flight& flight)
     flight.resident_mb.push_back(resident_mb());
     flight.holes += has_hole(rig.paged, rig.paged.table()) ? 1 : 0;
     ++flight.checks;
-    rig.paged.place(region_of(0));
+    rig.paged.place(region_of(rig.paged, 0));
 }
 
 Flight fly(const Rig& rig, int frames) {
@@ -255,17 +257,17 @@ int main(int count, char** words) {
         auto table = table_in_memory(*store);
         if (!table) return fail(table.message());
         whole.emplace(std::move(*table), options);
-        whole->place(region_of(1));
+        whole->place(region_of(*whole, 1));
     }
     auto opened = open_paged_table(
         std::move(*store),
         {.memory_bytes = std::strtoull(words[3], nullptr, 10) << 20, .want_px = 0.5 * tolerance_px});
     if (!opened) return fail(opened.message());
     terrain::RoamFront paged(std::move(opened->table), options, std::move(opened->loader));
-    paged.place(region_of(0));
+    paged.place(region_of(paged, 0));
     std::optional<bench::FlightPicture> picture;
     if (wishes.draws) {
-        const lod::PoolRegion one = region_of(1);
+        const lod::PoolRegion one = paged.pool_need();
         auto made = bench::FlightPicture::create(kWidth_px, kHeight_px,
                                                  {2 * one.vertex_capacity, 2 * one.index_capacity, 16});
         if (!made) return fail(made.message());
