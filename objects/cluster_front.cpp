@@ -89,6 +89,7 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     }
     worst_.clear();
     cheapest_.clear();
+    to_open_.clear();
     for (CutRecord& record : cut_) {
         const bool has_event = !record.presence.holds_at(time);
         if (has_event) {
@@ -98,7 +99,10 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
         }
         if (is_new_view || has_event || tree_.moves(record.id)) evaluate(record);
         offer(record);
+        if (must_open(record)) to_open_.push_back(record.id);
     }
+    for (ClusterId id : to_open_)
+        open(id);
 }
 
 double ClusterFront::refine_error_px() {
@@ -123,22 +127,44 @@ double ClusterFront::error_px() {
     return refine_error_px();
 }
 
+/// In view, and nothing to draw for it.
+bool ClusterFront::must_open(const CutRecord& record) const {
+    const Cluster& cluster = tree_.clusters[record.id];
+    return record.is_seen && !record.is_refined && cluster.geometry == kNoGeometry && cluster.child_count > 0;
+}
+
+/// Replaces an active cluster by its children, and children that must be opened by theirs. Returns how many came.
+uint32_t ClusterFront::open(ClusterId id) {
+    uint32_t come = 0;
+    stack_.assign(1, id);
+    while (!stack_.empty()) {
+        const ClusterId top = stack_.back();
+        stack_.pop_back();
+        CutRecord& record = cut_.at(top);
+        count_triangles(record, -1);
+        record.is_refined = true;
+        hash_ -= cluster_hash(top);
+        offer(record);
+        const Cluster& cluster = tree_.clusters[top];
+        for (uint32_t i = 0; i < cluster.child_count; ++i) {
+            const ClusterId child = cluster.first_child + i;
+            add(child);
+            if (must_open(cut_.at(child))) stack_.push_back(child);
+        }
+        come += cluster.child_count;
+    }
+    return come;
+}
+
 lod::Step ClusterFront::refine() {
     if (refine_error_px() <= 0.0) return {};
     const ClusterId id = worst_.top();
     worst_.pop();
     const uint64_t before = triangles_;
-    CutRecord& record = cut_.at(id);
-    count_triangles(record, -1);
-    record.is_refined = true;
-    hash_ -= cluster_hash(id);
-    const Cluster& cluster = tree_.clusters[id];
-    if (cluster.geometry != kNoGeometry) jump_px_ = std::max(jump_px_, record.error_px);
-    offer(record);
-    for (uint32_t child = 0; child < cluster.child_count; ++child)
-        add(cluster.first_child + child);
+    jump_px_ = std::max(jump_px_, cut_.at(id).error_px);
+    const uint32_t come = open(id);
     ++operations_[lod::OperationKind::kClusterRefine];
-    return {static_cast<int64_t>(triangles_ - before), cluster.child_count};
+    return {static_cast<int64_t>(triangles_ - before), come};
 }
 
 /// Makes a refined cluster active; everything below it goes. Returns how many clusters went.

@@ -6,6 +6,7 @@
 //      +- cluster     refined
 //          +- leaf    active
 //
+// A cluster without geometry that is in view is refined at once, whatever the budget: nothing could stand for it.
 // Refining replaces an active cluster by its children; coarsening takes a refined one back with everything below it.
 // Any refined cluster may be taken back, not only one above the cut's end: what a whole branch costs is its own error.
 //
@@ -67,6 +68,8 @@ class ClusterFront final : public lod::Front {
     void add(ClusterId id);
     void remove(ClusterId id);
     void offer(const CutRecord& record);
+    bool must_open(const CutRecord& record) const;
+    uint32_t open(ClusterId id);
     uint32_t take_back(ClusterId id);
     void emit_writes(lod::DrawList& out);
 
@@ -82,7 +85,7 @@ class ClusterFront final : public lod::Front {
     double jump_px_ = 0.0;
     lod::OperationCounts operations_;
     uint64_t presence_lookups_ = 0, evaluations_ = 0;
-    std::vector<ClusterId> stack_;
+    std::vector<ClusterId> stack_, to_open_;
 
     lod::PoolRegion region_;
     bool is_written_ = false;
