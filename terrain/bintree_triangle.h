@@ -24,7 +24,7 @@ inline BintreeTriangle root_triangle(const DiamondMesh& mesh, int half) {
     const Diamond& root = mesh[kRoot];
     const GridPoint left = step_from(root.centre(), root.apex_dir + 4 * half + 2, mesh.domain().reach(0));
     const DiamondIndex corner = (left.x == 0 ? 0u : 1u) + (left.y == 0 ? 0u : 2u);
-    return {kRoot, half, root.parent[half], corner, 3u - corner};
+    return {kRoot, half, root.parent(static_cast<uint32_t>(half)), corner, 3u - corner};
 }
 
 inline bool is_leaf(const DiamondMesh& mesh, const BintreeTriangle& triangle) {
@@ -35,7 +35,7 @@ inline bool is_leaf(const DiamondMesh& mesh, const BintreeTriangle& triangle) {
 inline std::array<BintreeTriangle, 2> children_of(const DiamondMesh& mesh, const BintreeTriangle& t) {
     const auto child = [&](int side, DiamondIndex left, DiamondIndex right) {
         const DiamondIndex diamond = mesh.child(t.diamond, side);
-        const int half = diamond == kOutside || mesh[diamond].parent[0] == t.diamond ? 0 : 1;
+        const int half = diamond == kOutside || mesh[diamond].parent0 == t.diamond ? 0 : 1;
         return BintreeTriangle{diamond, half, t.diamond, left, right};
     };
     // Sides 0 and 3 belong to the apex in apex_dir, 1 and 2 to the one opposite.

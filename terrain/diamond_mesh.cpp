@@ -42,13 +42,13 @@ void DiamondMesh::clear() {
     root.set_centre({side / 2, side / 2});
     // Parents of the root are the corners off its hypotenuse; direction 1 is (+, +).
     root.apex_dir = static_cast<uint32_t>(apex_direction(domain_, root.centre(), 0)) & 7;
-    root.parent[0] = root.apex_dir == 1 ? 3u : 2u;
-    root.parent[1] = root.apex_dir == 1 ? 0u : 1u;
+    root.parent0 = root.apex_dir == 1 ? 3u : 2u;
+    root.parent1 = root.apex_dir == 1 ? 0u : 1u;
     CHECK(add_record(root) == kRoot);
 }
 
 void DiamondMesh::fetch_kin(DiamondIndex index) const {
-    for (DiamondIndex parent : diamonds_[index].parent) {
+    for (DiamondIndex parent : diamonds_[index].parents()) {
         if (!is_record(parent)) continue;
         for (DiamondIndex sibling : kids_[diamonds_[parent].kids]) {
             if (is_record(sibling)) fetch(sibling);
@@ -80,6 +80,7 @@ void DiamondMesh::tidy() {
 
 DiamondIndex DiamondMesh::add_record(const Diamond& d) {
     if (free_.empty()) {
+        CHECK(record_count() < kUnsplit);
         diamonds_.push_back(d);
         return record_count() - 1;
     }
@@ -99,23 +100,23 @@ void DiamondMesh::free_record(DiamondIndex index) {
 /// such neighbour, or none that is split. Without branches: which of four neighbours exist is as good as random.
 DiamondIndex DiamondMesh::shared_child(const Diamond& d, uint32_t side) const {
     const uint32_t which = kSharedParent[side];
-    const DiamondIndex parent = d.parent[which];
+    const DiamondIndex parent = d.parent(which);
     const uint32_t block = is_record(parent) ? diamonds_[parent].kids : kNoKids;
-    const DiamondIndex across = kids_[block][(uint32_t(d.slot(which)) + kRingStep[side]) & 3];
+    const DiamondIndex across = kids_[block][(d.slot(which) + kRingStep[side]) & 3];
     // Corner 0 stands for nobody: like whatever is not split, it has no children.
     const Diamond& other = diamonds_[across == kOutside ? 0 : across];
-    return kids_[other.kids][kFacing[side][other.parent[0] == parent ? 0 : 1]];
+    return kids_[other.kids][kFacing[side][other.parent0 == parent ? 0 : 1]];
 }
 
 DiamondIndex DiamondMesh::missing_parent(DiamondIndex index) const {
     const Diamond& d = diamonds_[index];
     for (uint32_t which = 0; which < 2; ++which) {
-        if (d.parent[which] != kUnsplit) continue;
+        if (d.parent(which) != kUnsplit) continue;
         // Its neighbour across the side that it lies on; they share the diamond's parent on that side.
-        const Diamond& known = diamonds_[d.parent[1 - which]];
-        const uint32_t side = uint32_t(d.slot(1 - which)), shared = kSharedParent[side];
-        const uint32_t block = diamonds_[known.parent[shared]].kids;
-        return kids_[block][(uint32_t(known.slot(shared)) + kRingStep[side]) & 3];
+        const Diamond& known = diamonds_[d.parent(1 - which)];
+        const uint32_t side = d.slot(1 - which), shared = kSharedParent[side];
+        const uint32_t block = diamonds_[known.parent(shared)].kids;
+        return kids_[block][(known.slot(shared) + kRingStep[side]) & 3];
     }
     return kOutside;
 }
@@ -123,9 +124,7 @@ DiamondIndex DiamondMesh::missing_parent(DiamondIndex index) const {
 /// The other parent already has this child: ties the new one in.
 void DiamondMesh::share_child(DiamondIndex child, DiamondIndex index, uint32_t side) {
     Diamond& c = diamonds_[child];
-    const uint32_t free_place = c.parent[0] == kUnsplit ? 0 : 1;
-    c.parent[free_place] = index;
-    c.set_slot(free_place, side);
+    c.set_parent(c.parent0 == kUnsplit ? 0 : 1, index, side);
 }
 
 /// Whether a point lies inside the domain, off its border.
@@ -139,12 +138,11 @@ DiamondIndex DiamondMesh::make_child(const Diamond& parent, DiamondIndex index, 
                                      GridPoint centre) {
     Diamond c;
     c.set_centre(centre);
-    c.parent[0] = index;
+    c.set_parent(0, index, side);
     // A diamond on the border is half a diamond.
-    c.parent[1] = is_inside(centre) ? kUnsplit : kOutside;
+    c.parent1 = is_inside(centre) ? kUnsplit : kOutside;
     c.level = static_cast<uint32_t>(parent.level + 1) & 63;
     c.apex_dir = static_cast<uint32_t>(parent.apex_dir + 2 * side + 5) & 7;
-    c.slot0 = side & 3;
     return add_record(c);
 }
 
@@ -181,8 +179,8 @@ uint32_t DiamondMesh::make_kids(DiamondIndex index, SplitOutcome& outcome) {
 DiamondIndex DiamondMesh::corner_at(DiamondIndex index, GridPoint point) const {
     while (index != kRoot) {
         const Diamond& d = diamonds_[index];
-        index = is_record(d.parent[0]) ? d.parent[0] : d.parent[1];
-        for (DiamondIndex apex : diamonds_[index].parent) {
+        index = is_record(d.parent0) ? d.parent0 : d.parent1;
+        for (DiamondIndex apex : diamonds_[index].parents()) {
             if (is_record(apex) && diamonds_[apex].centre() == point) return apex;
         }
     }
@@ -201,12 +199,12 @@ SplitOutcome DiamondMesh::split(DiamondIndex index) {
     DCHECK(diamonds_[index].is_used() && !diamonds_[index].is_split);
     if (diamonds_[index].level < domain_.finest_level()) {
         const uint32_t block = make_kids(index, outcome);
-        diamonds_[index].kids = block;  // the records may have moved
+        diamonds_[index].kids = block & kOutside;  // the records may have moved
     }
     Diamond& d = diamonds_[index];
     d.is_split = true;
     hash_ ^= hash_of(d);
-    for (DiamondIndex parent : d.parent) {
+    for (DiamondIndex parent : d.parents()) {
         DCHECK(parent != kUnsplit);
         if (!is_record(parent)) continue;
         ++triangles_;
@@ -220,9 +218,9 @@ SplitOutcome DiamondMesh::split(DiamondIndex index) {
 /// Takes a parent from a candidate; true when it was the last one and the record is gone.
 bool DiamondMesh::drop_child(DiamondIndex child_index, DiamondIndex parent_index) {
     Diamond& c = diamonds_[child_index];
-    const int which = c.parent[0] == parent_index ? 0 : 1;
-    c.parent[which] = kUnsplit;
-    if (is_record(c.parent[1 - which])) return false;
+    const uint32_t which = c.parent0 == parent_index ? 0 : 1;
+    c.set_parent(which, kUnsplit, 0);
+    if (is_record(c.parent(1 - which))) return false;
     free_record(child_index);
     return true;
 }
@@ -240,7 +238,7 @@ MergeOutcome DiamondMesh::merge(DiamondIndex index) {
     d.kids = kNoKids;
     d.is_split = false;
     hash_ ^= hash_of(d);
-    for (DiamondIndex parent : d.parent) {
+    for (DiamondIndex parent : d.parents()) {
         if (!is_record(parent)) continue;
         --triangles_;
         if (parent >= kCornerCount && --diamonds_[parent].split_kids == 0) {

@@ -2,7 +2,7 @@
 //
 // Records live in one pool; kinship is by index, so neither operation searches or hashes. A record exists for
 // every split diamond and for every diamond that could be split next (one parent or both split). A leaf triangle
-// is a pair (unsplit diamond, split parent). 24 bytes a record, 16 more for the children of a split one.
+// is a pair (unsplit diamond, split parent). 20 bytes a record, 16 more for the children of a split one.
 //
 // Invariants (terrain/validate.h proves them): a split diamond's parents are split; children link back; the mesh
 // has no T-junction.
@@ -19,8 +19,10 @@ namespace terrain {
 
 using DiamondIndex = uint32_t;
 
-inline constexpr DiamondIndex kOutside = 0xffffffffu;  ///< beyond the domain, or finer than the grid
-inline constexpr DiamondIndex kUnsplit = 0xfffffffeu;  ///< parent place whose diamond is not split
+/// Bits of an index in a record: 134 million records, about 100 million triangles.
+inline constexpr uint32_t kIndexBits = 27;
+inline constexpr DiamondIndex kOutside = (1u << kIndexBits) - 1;  ///< beyond the domain, or finer than the grid
+inline constexpr DiamondIndex kUnsplit = kOutside - 1;            ///< parent place whose diamond is not split
 inline constexpr DiamondIndex kCornerCount = 4;        ///< records 0..3: the domain's corners, always there
 inline constexpr DiamondIndex kRoot = 4;               ///< record of the one diamond of level 0
 
@@ -32,46 +34,48 @@ inline bool is_record(DiamondIndex index) {
 
 inline constexpr uint32_t kFreeLevel = 63;
 
-inline constexpr uint32_t kMostCoordinate = (1u << 26) - 1;  ///< that a record holds
+inline constexpr uint32_t kMostCoordinate = (1u << 23) - 1;  ///< that a record holds
 static_assert((1u << kMostLog2Side) <= kMostCoordinate);
 
-/// Two bytes for whoever ranks the diamonds; the mesh only clears them.
-struct RankTag {
-    uint8_t bucket = 0;
-    uint8_t queue : 3 = 0;
-    uint8_t stamp : 5 = 0;
-};
-
-/// One diamond.
+/// One diamond, packed: its size is a third of what the mesh takes. `bucket`, `queue` and `stamp` belong to whoever
+/// ranks the diamonds; the mesh only clears them.
 struct Diamond {
-    uint32_t x : 26 = 0;                            ///< of the centre
-    uint32_t level : 6 = 0;                         ///< kFreeLevel: on the free list
-    uint32_t y : 26 = 0;                            ///< of the centre
-    uint32_t apex_dir : 3 = 0;                      ///< 0 … 7, diamond.h
-    uint32_t split_kids : 3 = 0;                    ///< children that are split
-    DiamondIndex parent[2] = {kOutside, kOutside};  ///< [0] lies in `apex_dir`, [1] opposite
-    uint32_t kids = kNoKids;                        ///< block of four child indices
-    uint16_t slot0 : 2 = 0;                         ///< this record's place among parent[0]'s children
-    uint16_t slot1 : 2 = 0;                         ///< … and among parent[1]'s
-    uint16_t is_split : 1 = 0;
-    RankTag tag;
+    uint32_t x : 23 = 0;         ///< of the centre
+    uint32_t level : 6 = 0;      ///< kFreeLevel: on the free list
+    uint32_t apex_dir : 3 = 0;   ///< 0 … 7, diamond.h
+    uint32_t y : 23 = 0;         ///< of the centre
+    uint32_t is_split : 1 = 0;
+    uint32_t bucket : 8 = 0;
+    uint32_t parent0 : 27 = kOutside;  ///< lies in `apex_dir`
+    uint32_t slot0 : 2 = 0;            ///< this record's place among parent 0's children
+    uint32_t queue : 3 = 0;
+    uint32_t parent1 : 27 = kOutside;  ///< lies opposite
+    uint32_t slot1 : 2 = 0;            ///< this record's place among parent 1's children
+    uint32_t split_kids : 3 = 0;       ///< children that are split
+    uint32_t kids : 27 = kNoKids;      ///< block of four child indices
+    uint32_t stamp : 5 = 0;
 
     void set_centre(GridPoint centre) {
         x = static_cast<uint32_t>(centre.x) & kMostCoordinate;
         y = static_cast<uint32_t>(centre.y) & kMostCoordinate;
     }
+    GridPoint centre() const { return {static_cast<int>(x), static_cast<int>(y)}; }
 
     bool is_used() const { return level != kFreeLevel; }
 
-    int slot(uint32_t which) const { return which == 0 ? slot0 : slot1; }
-    void set_slot(uint32_t which, uint32_t side) {
+    std::array<DiamondIndex, 2> parents() const { return {parent0, parent1}; }
+    DiamondIndex parent(uint32_t which) const { return which == 0 ? parent0 : parent1; }
+    uint32_t slot(uint32_t which) const { return which == 0 ? slot0 : slot1; }
+    /// @param side  of the parent's, that this record lies on
+    void set_parent(uint32_t which, DiamondIndex index, uint32_t side) {
         if (which == 0) {
+            parent0 = index & kOutside;
             slot0 = side & 3;
         } else {
+            parent1 = index & kOutside;
             slot1 = side & 3;
         }
     }
-    GridPoint centre() const { return {static_cast<int>(x), static_cast<int>(y)}; }
 };
 
 /// Records that a split made, for whoever ranks them.
@@ -90,7 +94,7 @@ struct MergeOutcome {
     uint32_t mergeable_count = 0;
 };
 
-static_assert(sizeof(Diamond) == 24);
+static_assert(sizeof(Diamond) == 20);
 
 class DiamondMesh {
   public:
@@ -98,7 +102,11 @@ class DiamondMesh {
 
     const Domain& domain() const { return domain_; }
     const Diamond& operator[](DiamondIndex index) const { return diamonds_[index]; }
-    RankTag& tag(DiamondIndex index) { return diamonds_[index].tag; }
+    void set_queue(DiamondIndex index, uint8_t queue) { diamonds_[index].queue = queue & 7; }
+    void set_rank(DiamondIndex index, uint8_t bucket, uint8_t stamp) {
+        diamonds_[index].bucket = bucket;
+        diamonds_[index].stamp = stamp & 31;
+    }
     /// Records ever in use; indices are below this.
     uint32_t record_count() const { return static_cast<uint32_t>(diamonds_.size()); }
     /// Records in use now, without the corners.

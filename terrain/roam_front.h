@@ -116,12 +116,12 @@ class RoamFront final : public lod::Front {
     /// Alarm of what needs no new look, or of what nothing is said.
     static constexpr float kNever = std::numeric_limits<float>::infinity();
 
-    Bucket bucket_of(DiamondIndex index) const { return mesh_[index].tag.bucket; }
-    Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].tag.queue); }
+    Bucket bucket_of(DiamondIndex index) const { return static_cast<Bucket>(mesh_[index].bucket); }
+    Queue queue_of(DiamondIndex index) const { return static_cast<Queue>(mesh_[index].queue); }
     static constexpr uint8_t kStampMask = 31;
     bool is_queued(DiamondIndex index) const { return queue_of(index) != Queue::kNone; }
     /// Evaluated in this very frame (or a multiple of 32 ago, which costs order, never a bound).
-    bool is_fresh(DiamondIndex index) const { return mesh_[index].tag.stamp == (stamp_ & kStampMask); }
+    bool is_fresh(DiamondIndex index) const { return mesh_[index].stamp == (stamp_ & kStampMask); }
     BucketQueue& queue_at(Queue queue) { return queues_[static_cast<size_t>(queue) - 1]; }
     BucketQueue& splits() { return queue_at(Queue::kSplit); }
     BucketQueue& merges() { return queue_at(Queue::kMerge); }

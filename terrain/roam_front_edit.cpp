@@ -65,7 +65,7 @@ void RoamFront::list_touched(const data::SampleRange& range, std::vector<Diamond
             const DiamondIndex child = mesh_.child(index, side);
             if (!is_record(child)) continue;
             const Diamond& c = mesh_[child];
-            const bool is_second = c.parent[1] == index || !is_record(c.parent[1]);
+            const bool is_second = c.parent1 == index || !is_record(c.parent1);
             if (is_second && meets(range, c.centre(), family_reach(table_.domain, c)))
                 stack_.push_back(child);
         }

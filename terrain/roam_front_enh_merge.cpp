@@ -68,7 +68,7 @@ DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
     while (true) {
         const Diamond& d = mesh_[index];
         DiamondIndex next = kOutside;
-        for (DiamondIndex parent : d.parent) {
+        for (DiamondIndex parent : d.parents()) {
             if (!is_record(parent) || parent < kCornerCount) continue;
             if (family_bucket(parent) < limit) {
                 next = parent;
@@ -109,7 +109,7 @@ void RoamFront::prune(Bucket limit) {
             const DiamondIndex child = mesh_.child(index, side);
             // A diamond is reached through its second parent only, so that it is looked at once.
             if (is_record(child) && mesh_[child].is_split &&
-                (mesh_[child].parent[1] == index || !is_record(mesh_[child].parent[1]))) {
+                (mesh_[child].parent1 == index || !is_record(mesh_[child].parent1))) {
                 chain_.push_back(child);
             }
         }

@@ -37,7 +37,7 @@ bool RoamFront::find_base(DiamondIndex index, GlideBase& base) const {
     base.shares = {0.5f, 0.5f, 0.0f};
     bool is_found = from.x + to.x == 2 * at.x && from.y + to.y == 2 * at.y;
     for (uint32_t which = 0; which < 2 && !is_found; ++which) {
-        const DiamondIndex apex = mesh_[index].parent[which];
+        const DiamondIndex apex = mesh_[index].parent(which);
         if (!is_record(apex)) continue;
         base.ends[2] = apex;
         is_found = shares_in(at, {from, to, place(apex)}, base.shares);
@@ -67,8 +67,8 @@ void RoamFront::note_pop(DiamondIndex index) {
 
 /// Triangles of the mesh that hang on a diamond's split.
 uint32_t RoamFront::parents_of(DiamondIndex index) const {
-    return static_cast<uint32_t>(std::count_if(std::begin(mesh_[index].parent), std::end(mesh_[index].parent),
-                                               [](DiamondIndex parent) { return is_record(parent); }));
+    const std::array<DiamondIndex, 2> parents = mesh_[index].parents();
+    return uint32_t(is_record(parents[0])) + uint32_t(is_record(parents[1]));
 }
 
 /// Triangles that merging this diamond takes away.

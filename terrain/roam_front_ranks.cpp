@@ -28,9 +28,7 @@ void RoamFront::rank(std::span<const DiamondIndex> some) {
     lod::Float4 walk_m, turn_rad;
     odometer_.alarms(now, walk_m, turn_rad);
     for (size_t lane = 0; lane < some.size(); ++lane) {
-        RankTag& tag = mesh_.tag(some[lane]);
-        tag.bucket = static_cast<Bucket>(now.bucket[lane]);
-        tag.stamp = stamp_ & kStampMask;
+        mesh_.set_rank(some[lane], static_cast<Bucket>(now.bucket[lane]), stamp_ & kStampMask);
         wake_m_[some[lane]] = walk_m[lane];
         wake_rad_[some[lane]] = turn_rad[lane];
     }
@@ -38,7 +36,7 @@ void RoamFront::rank(std::span<const DiamondIndex> some) {
 
 void RoamFront::enqueue(DiamondIndex index, Queue queue) {
     DCHECK(!is_queued(index) || queue_of(index) == Queue::kUnasked);
-    mesh_.tag(index).queue = static_cast<uint8_t>(queue) & 7;
+    mesh_.set_queue(index, static_cast<uint8_t>(queue));
     queue_at(queue).push(ranks_, index, bucket_of(index));
 }
 
@@ -51,7 +49,7 @@ void RoamFront::dequeue(DiamondIndex index) {
 /// Out of its queue, but still awake at its time.
 void RoamFront::unlink(DiamondIndex index) {
     queue_at(queue_of(index)).remove(ranks_, index, bucket_of(index));
-    mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kNone) & 7;
+    mesh_.set_queue(index, static_cast<uint8_t>(Queue::kNone));
 }
 
 /// Evaluates at most four queued records anew and moves them to their buckets.
@@ -64,7 +62,7 @@ void RoamFront::refresh(std::span<const DiamondIndex> some) {
         if (bucket_of(some[i]) == before[i]) continue;
         if (queue_of(some[i]) == Queue::kLeave && bucket_of(some[i]) > before[i]) {
             queue_at(Queue::kLeave).remove(ranks_, some[i], before[i]);
-            mesh_.tag(some[i]).queue = static_cast<uint8_t>(Queue::kNone) & 7;
+            mesh_.set_queue(some[i], static_cast<uint8_t>(Queue::kNone));
             stay(some[i]);
             enqueue(some[i], Queue::kMerge);
             continue;
@@ -82,7 +80,7 @@ void RoamFront::announce(std::span<const DiamondIndex> candidates) {
     for (DiamondIndex index : candidates) {
         const DiamondSource& facts = table_.at(mesh_[index].centre(), level);
         __builtin_prefetch(&facts);
-        mesh_.tag(index).queue = static_cast<uint8_t>(Queue::kUnasked) & 7;
+        mesh_.set_queue(index, static_cast<uint8_t>(Queue::kUnasked));
         unasked_.push({index, &facts});
     }
 }

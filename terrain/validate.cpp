@@ -17,9 +17,9 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
     const Diamond& d = mesh[index];
     const Domain& domain = mesh.domain();
     int present = 0;
-    for (int which = 0; which < 2; ++which) {
-        const GridPoint apex = step_from(d.centre(), d.apex_dir + 4 * which, domain.reach(d.level));
-        const DiamondIndex parent = d.parent[which];
+    for (uint32_t which = 0; which < 2; ++which) {
+        const GridPoint apex = step_from(d.centre(), static_cast<int>(d.apex_dir + 4 * which), domain.reach(d.level));
+        const DiamondIndex parent = d.parent(which);
         if (domain.contains(apex) == (parent == kOutside))
             return fault(index, d, "parent does not match the domain");
         if (!is_record(parent)) {
@@ -30,7 +30,7 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
         ++present;
         if (mesh[parent].centre() != apex) return fault(index, d, "parent is not its apex");
         if (!mesh[parent].is_used() || !mesh[parent].is_split) return fault(index, d, "parent is not split");
-        if (parent >= kCornerCount && mesh.child(parent, d.slot(static_cast<uint32_t>(which))) != index) {
+        if (parent >= kCornerCount && mesh.child(parent, static_cast<int>(d.slot(which))) != index) {
             return fault(index, d, "parent does not know it");
         }
     }
@@ -54,7 +54,7 @@ std::string check_children(const DiamondMesh& mesh, DiamondIndex index) {
         if (!is_record(child)) continue;
         const Diamond& c = mesh[child];
         if (!c.is_used() || c.centre() != at || c.level != d.level + 1) return fault(index, d, "wrong child");
-        if (c.parent[0] != index && c.parent[1] != index) return fault(index, d, "child does not know it");
+        if (c.parent0 != index && c.parent1 != index) return fault(index, d, "child does not know it");
         split_kids += c.is_split ? 1 : 0;
     }
     return split_kids == d.split_kids ? "" : fault(index, d, "miscounts its split children");
@@ -75,7 +75,7 @@ std::string validate_mesh(const DiamondMesh& mesh) {
         if (std::string found = check_children(mesh, index); !found.empty()) return found;
         if (d.is_split) hash ^= lod::mix64((uint64_t(d.y) << 32) | d.x);
         // A leaf triangle: a split parent of an unsplit diamond; below the finest level, every split one has two a side.
-        const int parents = int(is_record(d.parent[0])) + int(is_record(d.parent[1]));
+        const int parents = int(is_record(d.parent0)) + int(is_record(d.parent1));
         if (!d.is_split) triangles += static_cast<uint64_t>(parents);
         if (d.is_split && d.level == mesh.domain().finest_level())
             triangles += 2 * static_cast<uint64_t>(parents);
