@@ -27,7 +27,8 @@ bool has_same_optics(const ViewMetric& a, const ViewMetric& b) {
 
 EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::dvec3& anchor_world) {
     bool is_comparable = views.size() == eyes_.size();
-    double step_m = 0.0, step_rad = 0.0;
+    step_m_ = step_rad_ = 0.0;
+    eyes_before_ = eyes_;
     for (size_t i = 0; i < views.size(); ++i) {
         const AnchoredEye now(views[i], anchor_world);
         if (i == eyes_.size()) {
@@ -36,13 +37,15 @@ EyeOdometer::Step EyeOdometer::advance(std::span<const View> views, const glm::d
         }
         const AnchoredEye then = std::exchange(eyes_[i], now);
         is_comparable = is_comparable && has_same_optics(now.metric, then.metric);
-        step_m = std::max(step_m, glm::length(now.eye - then.eye));
-        step_rad = std::max(step_rad, rotation_chord(now.metric.eye_from_world, then.metric.eye_from_world));
+        step_m_ = std::max(step_m_, glm::length(now.eye - then.eye));
+        step_rad_ =
+            std::max(step_rad_, rotation_chord(now.metric.eye_from_world, then.metric.eye_from_world));
     }
     eyes_.erase(eyes_.begin() + static_cast<std::ptrdiff_t>(views.size()), eyes_.end());
-    walked_m_ += step_m;
-    turned_rad_ += step_rad;
-    walk_share_ = static_cast<float>(std::clamp(step_m / (step_m + typical_m_ * step_rad + 1e-30), 0.1, 0.9));
+    walked_m_ += step_m_;
+    turned_rad_ += step_rad_;
+    walk_share_ =
+        static_cast<float>(std::clamp(step_m_ / (step_m_ + typical_m_ * step_rad_ + 1e-30), 0.1, 0.9));
     if (is_comparable && walked_m_ < std::min(kLimit, kTypicalLimit * typical_m_) && turned_rad_ < kLimit)
         return Step::kAdvanced;
     walked_before_m_ = std::exchange(walked_m_, 0.0);

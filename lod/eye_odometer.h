@@ -30,8 +30,13 @@ class EyeOdometer {
     Step advance(std::span<const View> views, const glm::dvec3& anchor_world);
 
     std::span<const AnchoredEye> eyes() const { return eyes_; }
+    /// Those of the frame before; as many, unless that frame cannot be compared.
+    std::span<const AnchoredEye> eyes_before() const { return eyes_before_; }
     float walked_m() const { return static_cast<float>(walked_m_); }
     float turned_rad() const { return static_cast<float>(turned_rad_); }
+    /// What the last frame added, for the eye that moved the most.
+    double step_m() const { return step_m_; }
+    double step_rad() const { return step_rad_; }
     double walked_before_m() const { return walked_before_m_; }
     double turned_before_rad() const { return turned_before_rad_; }
 
@@ -46,8 +51,9 @@ class EyeOdometer {
 
   private:
     double typical_m_;
-    std::vector<AnchoredEye> eyes_;
+    std::vector<AnchoredEye> eyes_, eyes_before_;
     double walked_m_ = 0.0, turned_rad_ = 0.0;
+    double step_m_ = 0.0, step_rad_ = 0.0;
     double walked_before_m_ = 0.0, turned_before_rad_ = 0.0;
     float walk_share_ = 0.5f;
 };

@@ -75,8 +75,9 @@ class Front {
     /// Guaranteed upper bound of the screen error over everything inside the views, px.
     virtual double error_px() = 0;
 
-    /// The farthest any vertex in view has moved since the last frame because the cut changed, or what it is a cut of,
-    /// px; a bound. 0 for fronts that do not say. A frame that has nothing in common with the last (a cut) is not a movement.
+    /// The farthest that anything which was in view in the last frame, and is now, has moved since because the cut
+    /// changed, or what it is a cut of, px; a bound. 0 for fronts that do not say. A frame that has nothing in common
+    /// with the last (a cut) is not a movement.
     virtual double jump_px() const { return 0.0; }
 
     /// Operations since construction.

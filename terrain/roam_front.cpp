@@ -73,6 +73,8 @@ void RoamFront::grow_arrays() {
     wake_rad_.resize(size, kNever);
     due_.reserve(size);
     merged_.reserve(size);
+    has_popped_.resize(size / 64 + 1);
+    has_met_.resize(size / 64 + 1);
     stack_.reserve(256);
     chain_.reserve(256);
 }
@@ -89,10 +91,10 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
     collect_due();
     const bool is_incoherent = due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64;
     const double passed_s = time_s - std::exchange(now_s_, time_s);
-    advance_glides(is_incoherent || step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 ||
-                   passed_s > kLongestFrame_s);
-    if (!moved_.empty() || !fresh_ground_.empty()) measure_edit();
-    if (options_.is_pruning && is_incoherent) take_back_incoherent();
+    advance_glides(step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 || passed_s > kLongestFrame_s ||
+                   (is_incoherent && is_leap()));
+    measure_edit();
+    if (options_.is_pruning && is_incoherent && is_cut_) take_back_in_cut();
     // Some may have gone with what was taken back.
     std::erase_if(due_,
                   [&](DiamondIndex index) { return index >= mesh_.record_count() || !is_queued(index); });
@@ -156,7 +158,7 @@ uint32_t RoamFront::split_one(DiamondIndex index) {
     grow_arrays();
     tessellator_.add_vertex(index);
     note_change(index, true);
-    if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
+    if (!is_gliding(index) || !is_watched(index) || !start_glide(index, false)) note_pop(index);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
         if (queue_of(parent) == Queue::kLeave) stay(parent);
@@ -250,10 +252,10 @@ lod::Step RoamFront::coarsen(double limit_px) {
     const Bucket bucket = merges().lowest();
     const DiamondIndex head = merges().head(bucket);
     const Bucket limit = limit_px > 0.0 ? scale_.bucket_of(static_cast<float>(limit_px)) : kFlatBucket;
-    // What is seen glides back one by one; what is not may go as a whole.
-    const bool is_far_below =
-        bucket == kHiddenBucket || (bucket + kClimbMargin <= limit && !is_gliding(head));
-    const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, limit) : head;
+    // Where vertices glide, only what is out of view goes as a whole, except in a cut.
+    const Bucket whole_limit = is_cut_ || options_.glide_s == 0.0 ? limit : kFlatBucket;
+    const bool is_far_below = bucket == kHiddenBucket || bucket + kClimbMargin <= whole_limit;
+    const DiamondIndex top = options_.is_pruning && is_far_below ? climb(head, whole_limit) : head;
     if (top == head) {
         if (!leave(head)) {
             note_pop(head);

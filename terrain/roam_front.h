@@ -85,7 +85,7 @@ class RoamFront final : public lod::Front {
     lod::PoolRegion pool_need() const override;
     void place(const lod::PoolRegion& region) override;
     void emit(const lod::View& view, lod::DrawList& out) override;
-    double jump_px() const override { return jump_px_; }
+    double jump_px() const override { return glided_px_ + popped_px_ + edited_px_; }
     uint64_t emitted_triangles() const override { return tessellator_.emitted_triangles(); }
     std::string validate() const override;
 
@@ -146,12 +146,14 @@ class RoamFront final : public lod::Front {
     uint32_t split_one(DiamondIndex index);
     void merge_one(DiamondIndex index);
     uint32_t merge_subtree(DiamondIndex top);
+    bool is_family_within(DiamondIndex top, Bucket limit);
     DiamondIndex climb(DiamondIndex index, Bucket limit);
     void rewind_alarms(EyeOdometer::Step step);
     void collect_due();
     bool is_little_worth_keeping(Bucket limit) const;
     void prune(Bucket limit);
-    void take_back_incoherent();
+    void take_back_in_cut();
+    bool is_leap() const;
     void recall_waiting();
 
     bool is_gliding(DiamondIndex index) const {
@@ -161,7 +163,14 @@ class RoamFront final : public lod::Front {
     bool is_on_fresh_ground(DiamondIndex index) const;
     bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
+    glm::vec3 base_from_place_m(const GlideBase& base, DiamondIndex index) const;
+    DiamondBound shown_bound(DiamondIndex index) const;
+    bool is_watched(DiamondIndex index) const;
     void note_pop(DiamondIndex index);
+    double diagonals_apart_px(DiamondIndex index, const GlideBase& base, const glm::vec3& vertex_m) const;
+    void note_flip(const VertexGlide& glide);
+    bool has_popped_kin(DiamondIndex index) const;
+    void forget_pops();
     uint32_t parents_of(DiamondIndex index) const;
     bool is_idle(DiamondIndex index) const {
         return mesh_[index].level > table_.domain.finest_level() - 2 * options_.batch;
@@ -195,6 +204,7 @@ class RoamFront final : public lod::Front {
     EyeOdometer odometer_;
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
+    std::vector<uint64_t> has_met_;  ///< a bit a record, all clear between uses
 
     std::unique_ptr<PageLoader> loader_;  ///< null: no page is ever absent
     VertexGlides glides_;
@@ -202,12 +212,17 @@ class RoamFront final : public lod::Front {
     bool is_cut_ = true;  ///< this frame has nothing in common with the last: nothing glides
     uint64_t idle_triangles_ =
         0;  ///< of the mesh, by splits that draw nothing new: patches end with the grid
-    uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
-    double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
-    double jump_px_ = 0.0;
+    uint64_t leaving_triangles_ = 0;    ///< that go when what leaves has left
+    double glide_px_ = 0.0;             ///< farthest any vertex is shown from its place
+    double glided_px_ = 0.0;            ///< farthest any vertex has moved since the last frame
+    double popped_px_ = 0.0;            ///< … the surface has jumped where vertices did not glide
+    double edited_px_ = 0.0;            ///< … an edit has moved any vertex
+    double most_popped_px_ = 0.0;       ///< the largest error of a diamond that did not
+    std::vector<uint64_t> has_popped_;  ///< a bit a record: in view, in this frame, without a glide
     std::vector<DiamondIndex> back_;
     struct MovedVertex {
-        glm::vec3 place, way;
+        DiamondBound around;
+        glm::vec3 way;
     };
     std::vector<MovedVertex> moved_;  ///< by edits since the last frame
     struct FreshGround {

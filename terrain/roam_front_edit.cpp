@@ -82,8 +82,8 @@ void RoamFront::take_facts(DiamondIndex index, const DiamondSource& now, FrontEd
     if (index >= kCornerCount && !mesh_[index].is_split) return;
     DiamondSource before = now;
     before.height_m = before_m;
-    const glm::vec3 place = bound(index).centre;
-    moved_.push_back({place, place - bound_of_(mesh_[index], before).centre});
+    const DiamondBound now_there = shown_bound(index);
+    moved_.push_back({now_there, now_there.centre - bound_of_(mesh_[index], before).centre});
     tessellator_.add_vertex(index);
     ++counts.vertices;
 }
@@ -102,7 +102,7 @@ void RoamFront::end_glides_over(const data::SampleRange& range) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
             if (!meets(range, mesh_[glide.index].centre(), table_.domain.reach(level))) continue;
             back_.push_back(glide.index);
-            moved_.push_back({bound(glide.index).centre, -glide.shown_m});
+            moved_.push_back({shown_bound(glide.index), -glide.shown_m});
         }
     }
     for (DiamondIndex index : back_) {
@@ -120,11 +120,11 @@ void RoamFront::measure_edit() {
     std::erase_if(fresh_ground_, [&](const FreshGround& fresh) {
         return !(now_s_ >= fresh.since_s && now_s_ <= fresh.since_s + kFresh_s);
     });
-    double worst_px = 0.0;
+    edited_px_ = 0.0;
     for (const MovedVertex& moved : moved_)
-        worst_px = std::max(worst_px, displacement_px(odometer_.eyes(), moved.place, moved.way));
+        edited_px_ = std::max(edited_px_, displacement_px(odometer_.eyes(), moved.around, moved.way));
     moved_.clear();
-    if (!is_cut_) jump_px_ += worst_px;
+    if (is_cut_) edited_px_ = 0.0;
 }
 
 }  // namespace terrain

@@ -1,6 +1,7 @@
 // enhMerge: a split diamond goes with everything below it, neighbours included, in one operation. For frames in
 // which little stays: turns, cuts, teleports.
 #include <algorithm>
+#include <limits>
 
 #include "terrain/roam_front.h"
 
@@ -12,11 +13,14 @@ namespace {
 constexpr double kKeepShare = 0.3;
 /// Every so many records are asked.
 constexpr DiamondIndex kSampleStride = 37;
+/// Of its distance: what has moved by more is not where it was.
+constexpr double kLeapShare = 0.25;
 
 }  // namespace
 
-/// The bucket of a diamond and of everything that hangs below it. A descendant may reach beyond its ancestor,
-/// over a side it shares with a neighbour, but stays within sqrt(2) + 1 of its radius.
+/// The bucket of a diamond and, nearly always, of everything that hangs below it. A descendant may reach beyond its
+/// ancestor, over a side it shares with a neighbour, but stays within sqrt(2) + 1 of its radius as far as the ground
+/// there is no steeper. Good enough in a cut, where what goes too much is split again.
 Bucket RoamFront::family_bucket(DiamondIndex index) {
     ++evaluations_;
     return static_cast<Bucket>(evaluate_some({&index, 1}, 2.4142136f).bucket[0]);
@@ -45,6 +49,8 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
         if (queue_of(index) == Queue::kLeave) leaving_triangles_ -= triangles_of(index);
         glides_.drop(index, mesh_[index].level);
         note_change(index, false);
+        if (!is_cut_ && wake_m_[index] == kNever) rank({&index, 1});
+        note_pop(index);
         if (is_queued(index)) unlink(index);
         const MergeOutcome outcome = mesh_.merge(index);
         ++count;
@@ -63,6 +69,32 @@ uint32_t RoamFront::merge_subtree(DiamondIndex top) {
     return count;
 }
 
+/// Whether a split diamond and every split one below it are within a limit, each by its own evaluation: what hangs
+/// below may reach beyond the ground that the diamond's facts speak of.
+bool RoamFront::is_family_within(DiamondIndex top, Bucket limit) {
+    stack_.assign(1, top);
+    merged_.clear();
+    bool is_within = true;
+    while (!stack_.empty() && is_within) {
+        const DiamondIndex index = stack_.back();
+        stack_.pop_back();
+        uint64_t& word = has_met_[index / 64];
+        const uint64_t bit = uint64_t{1} << (index % 64);
+        if ((word & bit) != 0) continue;
+        word |= bit;
+        merged_.push_back(index);
+        if (wake_m_[index] == kNever) rank({&index, 1});
+        is_within = bucket_of(index) < limit;
+        for (int side = 0; side < 4 && is_within && mesh_[index].split_kids > 0; ++side) {
+            const DiamondIndex child = mesh_.child(index, side);
+            if (is_record(child) && mesh_[child].is_split) stack_.push_back(child);
+        }
+    }
+    for (DiamondIndex index : merged_)
+        has_met_[index / 64] = 0;
+    return is_within;
+}
+
 /// The highest ancestor that may go as well: everything below it is then within the limit.
 DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
     while (true) {
@@ -70,7 +102,7 @@ DiamondIndex RoamFront::climb(DiamondIndex index, Bucket limit) {
         DiamondIndex next = kOutside;
         for (DiamondIndex parent : d.parents()) {
             if (!is_record(parent) || parent < kCornerCount) continue;
-            if (family_bucket(parent) < limit) {
+            if (is_family_within(parent, limit)) {
                 next = parent;
                 break;
             }
@@ -91,7 +123,7 @@ bool RoamFront::is_little_worth_keeping(Bucket limit) const {
     return kept < kKeepShare * asked;
 }
 
-/// Top-down over an incoherent frame: what the eye cannot see, or sees far below the tolerance, goes whole.
+/// Top-down over a cut: what the eye cannot see, or sees far below the tolerance, goes whole.
 void RoamFront::prune(Bucket limit) {
     const uint32_t before = mesh_.live_count();
     chain_.clear();
@@ -117,8 +149,24 @@ void RoamFront::prune(Bucket limit) {
     if (mesh_.live_count() < before - before / 4) mesh_.tidy();
 }
 
-/// An incoherent frame: enhMerge of the root where little would stay, of the topmost superfluous otherwise.
-void RoamFront::take_back_incoherent() {
+/// Whether the eye's last step moved most of what there is by a large part of its distance: nothing in the picture
+/// is where it was. Judged by a sample.
+bool RoamFront::is_leap() const {
+    uint32_t asked = 0, moved = 0;
+    for (DiamondIndex index = kRoot; index < mesh_.record_count(); index += kSampleStride) {
+        if (!mesh_[index].is_used()) continue;
+        const glm::vec3 centre = bound(index).centre;
+        double nearest_m = std::numeric_limits<double>::infinity();
+        for (const AnchoredEye& eye : odometer_.eyes())
+            nearest_m = std::min(nearest_m, glm::length(glm::dvec3(centre) - eye.eye));
+        ++asked;
+        if (odometer_.step_m() + odometer_.step_rad() * nearest_m > kLeapShare * nearest_m) ++moved;
+    }
+    return 2 * moved > asked;
+}
+
+/// A cut: enhMerge of the root where little would stay, of the topmost superfluous otherwise.
+void RoamFront::take_back_in_cut() {
     const Bucket limit = scale_.bucket_of(scale_.reference_px * 0.25f);
     if (!is_little_worth_keeping(scale_.bucket_of(scale_.reference_px))) return prune(limit);
     reset();

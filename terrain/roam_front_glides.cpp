@@ -52,17 +52,36 @@ bool RoamFront::start_glide(DiamondIndex index, bool leaves) {
     VertexGlide glide;
     glide.index = index;
     if (!find_base(index, glide.base)) return false;
-    for (size_t end = 0; end < 3; ++end)
-        glide.base_from_place_m += glide.base.shares[end] * bound(glide.base.ends[end]).centre;
-    glide.base_from_place_m -= bound(index).centre;
-    glides_.start(glide, mesh_[index].level, leaves, now_s_);
+    glide.base_from_place_m = base_from_place_m(glide.base, index);
+    const VertexGlide& started = glides_.start(glide, mesh_[index].level, leaves, now_s_);
+    if (!leaves) note_flip(started);
     return true;
 }
 
-/// A vertex in view that appears or goes without a glide, not in a cut, jumps by what its diamond may be wrong.
-void RoamFront::note_pop(DiamondIndex index) {
-    if (is_cut_ || bucket_of(index) <= kFlatBucket) return;
-    jump_px_ = std::max(jump_px_, static_cast<double>(scale_.upper_px(bucket_of(index))));
+/// Where a vertex's base is shown, seen from its place.
+glm::vec3 RoamFront::base_from_place_m(const GlideBase& base, DiamondIndex index) const {
+    glm::vec3 way = -bound(index).centre;
+    for (size_t end = 0; end < 3; ++end)
+        way += base.shares[end] * bound(base.ends[end]).centre;
+    return way;
+}
+
+/// A diamond's sphere as it is shown: its corners may be under way.
+DiamondBound RoamFront::shown_bound(DiamondIndex index) const {
+    constexpr float kSmallShare = 0.05f;  // of the radius: not worth asking every corner
+    DiamondBound shown = bound(index);
+    float farthest_m = glides_.farthest_m();
+    if (farthest_m > kSmallShare * shown.radius_m) {
+        const auto [from, to] = mesh_.edge_ends(index);
+        farthest_m = glm::length(glides_.displacement_m(index, mesh_[index].level));
+        for (const DiamondIndex corner : {from, to, mesh_[index].parent0, mesh_[index].parent1}) {
+            if (!is_record(corner)) continue;
+            const glm::vec3 way = glides_.displacement_m(corner, mesh_[corner].level);
+            farthest_m = std::max(farthest_m, glm::length(way));
+        }
+    }
+    shown.radius_m += farthest_m;
+    return shown;
 }
 
 /// Triangles of the mesh that hang on a diamond's split.
@@ -95,7 +114,8 @@ void RoamFront::stay(DiamondIndex index) {
 /// once.
 void RoamFront::advance_glides(bool is_cut) {
     is_cut_ = is_cut;
-    jump_px_ = glide_px_ = 0.0;
+    forget_pops();
+    glided_px_ = glide_px_ = 0.0;
     if (is_cut) {
         for (int level = 0; level <= table_.domain.finest_level(); ++level) {
             for (const VertexGlide& glide : glides_.at_level(level))
@@ -115,6 +135,7 @@ void RoamFront::advance_glides(bool is_cut) {
     glides_.advance(now_s_, back_);
     measure_glides();
     for (DiamondIndex index : back_) {
+        note_flip(*glides_.find(index, mesh_[index].level));
         leaving_triangles_ -= triangles_of(index);
         merge_one(index);
         ++operations_[lod::OperationKind::kMerge];
@@ -124,11 +145,11 @@ void RoamFront::advance_glides(bool is_cut) {
 void RoamFront::measure_glides() {
     for (int level = 0; level <= table_.domain.finest_level(); ++level) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
-            const glm::vec3 place = bound(glide.index).centre;
             tessellator_.add_vertex(glide.index);
-            glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), place, glide.shown_m));
-            jump_px_ =
-                std::max(jump_px_, displacement_px(odometer_.eyes(), place, glide.shown_m - glide.before_m));
+            const DiamondBound around = shown_bound(glide.index);
+            glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), around, glide.shown_m));
+            glided_px_ = std::max(glided_px_,
+                                  displacement_px(odometer_.eyes(), around, glide.shown_m - glide.before_m));
         }
     }
 }

@@ -15,8 +15,8 @@ float smooth(float x) {
 
 }  // namespace
 
-VertexGlide* VertexGlides::find(DiamondIndex index, int level) {
-    std::vector<VertexGlide>& glides = level_of(level);
+const VertexGlide* VertexGlides::find(DiamondIndex index, int level) const {
+    const std::vector<VertexGlide>& glides = levels_[static_cast<size_t>(level)];
     const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
     return at != glides.end() && at->index == index ? &*at : nullptr;
 }
@@ -45,22 +45,27 @@ glm::vec3 VertexGlides::shown_base_m(const VertexGlide& glide) const {
     return shown;
 }
 
-void VertexGlides::start(const VertexGlide& glide, int level, bool leaves, double now_s) {
+const VertexGlide& VertexGlides::start(const VertexGlide& glide, int level, bool leaves, double now_s) {
     std::vector<VertexGlide>& glides = level_of(level);
     const auto at = std::lower_bound(glides.begin(), glides.end(), glide.index, is_before);
-    if (at != glides.end() && at->index == glide.index) return turn(*at, leaves, now_s);
+    if (at != glides.end() && at->index == glide.index) {
+        turn(*at, leaves, now_s);
+        return *at;
+    }
     VertexGlide fresh = glide;
     fresh.from = leaves ? 0.0f : 1.0f;
     fresh.to = 1.0f - fresh.from;
     fresh.start_s = now_s;
     fresh.shown_m = fresh.before_m = fresh.from * shown_base_m(glide);
     farthest_m_ = std::max(farthest_m_, glm::length(fresh.shown_m));
-    glides.insert(at, fresh);
     ++count_;
+    return *glides.insert(at, fresh);
 }
 
 void VertexGlides::turn_round(DiamondIndex index, int level, bool leaves, double now_s) {
-    if (VertexGlide* glide = find(index, level)) turn(*glide, leaves, now_s);
+    std::vector<VertexGlide>& glides = level_of(level);
+    const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
+    if (at != glides.end() && at->index == index) turn(*at, leaves, now_s);
 }
 
 void VertexGlides::drop(DiamondIndex index, int level) {
@@ -99,9 +104,8 @@ void VertexGlides::advance(double now_s, std::vector<DiamondIndex>& back) {
 }
 
 glm::vec3 VertexGlides::displacement_m(DiamondIndex index, int level) const {
-    const std::vector<VertexGlide>& glides = levels_[static_cast<size_t>(level)];
-    const auto at = std::lower_bound(glides.begin(), glides.end(), index, is_before);
-    return at != glides.end() && at->index == index ? at->shown_m : glm::vec3(0.0f);
+    const VertexGlide* glide = find(index, level);
+    return glide ? glide->shown_m : glm::vec3(0.0f);
 }
 
 }  // namespace terrain

@@ -51,10 +51,12 @@ class VertexGlides {
     std::span<const VertexGlide> at_level(int level) const { return levels_[static_cast<size_t>(level)]; }
 
     /// A vertex that has just been born on its edge, or (`leaves`) begins to go back to it. One that is under way
-    /// turns round where it is.
-    void start(const VertexGlide& glide, int level, bool leaves, double now_s);
+    /// turns round where it is. Returns it, until the next call.
+    const VertexGlide& start(const VertexGlide& glide, int level, bool leaves, double now_s);
     /// Turns one round that is under way; nothing when it is not.
     void turn_round(DiamondIndex index, int level, bool leaves, double now_s);
+    /// One that is under way; null for any other.
+    const VertexGlide* find(DiamondIndex index, int level) const;
     /// The vertex is gone.
     void drop(DiamondIndex index, int level);
     void clear();
@@ -86,7 +88,6 @@ class VertexGlides {
 
   private:
     std::vector<VertexGlide>& level_of(int level) { return levels_[static_cast<size_t>(level)]; }
-    VertexGlide* find(DiamondIndex index, int level);
     float weight(const VertexGlide& glide, double now_s) const;
     void turn(VertexGlide& glide, bool leaves, double now_s) const;
     /// Where its base is shown, seen from the vertex's place.

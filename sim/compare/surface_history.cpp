@@ -69,6 +69,7 @@ SurfaceChange SurfaceHistory::add(const lod::View& view, std::vector<DrawnTriang
             static_cast<double>(missing(corners, corners_).size()) / static_cast<double>(triangles.size());
         change.popping_px = jump_px;
     }
+    view_ = view;
     triangles_ = std::move(triangles);
     corners_ = corners;
     places_ = places;
@@ -86,6 +87,8 @@ double SurfaceHistory::move(const lod::View& view, const std::vector<DrawnTriang
             const float before_m = above_m_[grid_.index(col, row)];
             if (std::isnan(before_m)) return;
             const SamplePlace place = place_of(grid_, col, row);
+            // What nobody saw cannot be seen to jump.
+            if (apart_px(view_, place, static_cast<double>(before_m), 0.0) < 0.0) return;
             const double now_m = above_m(triangles[i], place);
             worst_px = std::max(worst_px, apart_px(view, place, now_m, static_cast<double>(before_m)));
         });

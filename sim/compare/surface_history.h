@@ -15,7 +15,7 @@ namespace sim {
 struct SurfaceChange {
     double changed_share = 0.0;  ///< triangles whose corners are three samples that were no triangle before
     double popping_px =
-        0.0;  ///< the farthest the surface has jumped over a sample in view, with the eye still
+        0.0;  ///< the farthest the surface has jumped over a sample in view, then and now, with the eye still
 };
 
 class SurfaceHistory {
@@ -37,6 +37,7 @@ class SurfaceHistory {
     std::vector<float> above_m_;  ///< [sample] of the surface as last drawn; NaN: not drawn
     std::vector<terrain::DrawnTriangle> triangles_;
     Keys corners_, places_;  ///< of triangles_: by samples, and by positions
+    lod::View view_;         ///< of the frame before
     bool is_first_ = true;
 };
 

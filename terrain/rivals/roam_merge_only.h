@@ -30,6 +30,7 @@ class RoamMergeOnly final : public RivalFront {
     lod::PoolRegion pool_need() const override { return front_.pool_need(); }
     void place(const lod::PoolRegion& region) override { front_.place(region); }
     void emit(const lod::View& view, lod::DrawList& out) override { front_.emit(view, out); }
+    double jump_px() const override { return front_.jump_px(); }
     uint64_t emitted_triangles() const override { return front_.emitted_triangles(); }
     std::string validate() const override { return front_.validate(); }
     uint64_t memory_bytes() const override {

@@ -1,14 +1,10 @@
 // Gliding vertices: what a frame changes on the drawn surface is what the front says it is, small, and gone in time.
 #include <gtest/gtest.h>
 
-#include "lod/scheduler.h"
-#include "terrain/roam_front.h"
-#include "tests/terrain/drawn_mesh.h"
+#include "tests/terrain/surface_rig.h"
 #include "tests/terrain/test_relief.h"
 
 namespace {
-
-using terrain_test::DrawnTriangle;
 
 constexpr int kSide = 257;
 constexpr double kCell_m = 10.0, kRate = 60.0;
@@ -24,71 +20,9 @@ lod::View flight(int frame) {
     return terrain_test::level_view({300.0 + 80.0 * t, 400.0 + 60.0 * t, 420.0}, 0.7 + 0.05 * t, -0.15);
 }
 
-/// Heights of the drawn surface over every sample; NaN where nothing is drawn.
-std::vector<double> drawn_heights(std::span<const DrawnTriangle> triangles) {
-    std::vector<double> heights(kSide * kSide, std::nan(""));
-    for (const DrawnTriangle& t : triangles) {
-        const auto [a, b, c] = t.samples;
-        const double area = double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y);
-        for (int y = std::min({a.y, b.y, c.y}); y <= std::max({a.y, b.y, c.y}); ++y) {
-            for (int x = std::min({a.x, b.x, c.x}); x <= std::max({a.x, b.x, c.x}); ++x) {
-                const double u = (double(x - a.x) * (c.y - a.y) - double(c.x - a.x) * (y - a.y)) / area;
-                const double v = (double(b.x - a.x) * (y - a.y) - double(x - a.x) * (b.y - a.y)) / area;
-                if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
-                heights[static_cast<size_t>(y * kSide + x)] =
-                    t.world[0].z + u * (t.world[1].z - t.world[0].z) + v * (t.world[2].z - t.world[0].z);
-            }
-        }
-    }
-    return heights;
-}
-
-/// A front that is drawn every frame, and the surface it drew.
-struct Rig {
-    explicit Rig(double glide_s)
-        : front(terrain::make_diamond_table(relief(), 2),
-                {.tolerance_px = 1.0, .reserve_triangles = 60'000, .glide_s = glide_s}) {}
-
-    void frame(const lod::View& view, double time_s, uint64_t operations = UINT64_MAX) {
-        lod::Front* fronts[] = {&front};
-        front.begin_frame({&view, 1}, time_s);
-        lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(operations));
-        if (front.pool_need().index_capacity > placed.index_capacity ||
-            front.pool_need().vertex_capacity > placed.vertex_capacity) {
-            placed = front.pool_need();
-            front.place(placed);
-        }
-        lod::DrawList list;
-        front.emit(view, list);
-        pool.apply(list);
-        before = std::move(now);
-        now = drawn_heights(terrain_test::drawn_triangles(pool, list, lod::Module::kTerrain));
-    }
-
-    /// The farthest the surface over any sample in view has moved since the last frame, px.
-    double moved_px(const lod::View& view) const {
-        const lod::ViewMetric metric = lod::metric_of(view);
-        double worst = 0.0;
-        for (int y = 0; y < kSide; ++y) {
-            for (int x = 0; x < kSide; ++x) {
-                const size_t i = static_cast<size_t>(y * kSide + x);
-                if (std::isnan(now[i]) || std::isnan(before[i])) continue;
-                const glm::dvec3 at(x * kCell_m, (kSide - 1 - y) * kCell_m, now[i]);
-                const glm::dvec3 eye = metric.eye_from_world * (at - view.eye_world);
-                if (lod::distance_outside_m(metric, eye, 0.0) > 0.0) continue;
-                const glm::dvec3 was =
-                    metric.eye_from_world * (glm::dvec3(at.x, at.y, before[i]) - view.eye_world);
-                const glm::dvec2 shift = glm::dvec2(eye) / -eye.z - glm::dvec2(was) / -was.z;
-                worst = std::max(worst, metric.lambda_px * glm::length(shift));
-            }
-        }
-        return worst;
-    }
-
-    terrain::RoamFront front;
-    terrain_test::PoolTwin pool;
-    lod::PoolRegion placed;
-    std::vector<double> now, before;
+/// A front over it at 1 px.
+struct Rig : terrain_test::SurfaceRig {
+    explicit Rig(double glide_s) : SurfaceRig(relief(), 1.0, glide_s) {}
 };
 
 TEST(Glide, TheSurfaceMovesNoMoreThanTold) {
@@ -103,11 +37,11 @@ TEST(Glide, TheSurfaceMovesNoMoreThanTold) {
             ASSERT_EQ(rig.front.validate(), "");
         }
         if (frame == 0) continue;
-        const double moved_px = rig.moved_px(view);
+        const double moved_px = rig.moved_px();
         ASSERT_LE(moved_px, rig.front.jump_px() + 1e-3);
         worst_px = std::max(worst_px, moved_px);
         worst_told_px = std::max(worst_told_px, rig.front.jump_px());
-        worst_jump_px = std::max(worst_jump_px, jumping.moved_px(view));
+        worst_jump_px = std::max(worst_jump_px, jumping.moved_px());
     }
     RecordProperty("moved_px_gliding", std::to_string(worst_px));
     RecordProperty("moved_px_jumping", std::to_string(worst_jump_px));
