@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -15,6 +16,22 @@ namespace terrain {
 inline bool is_in_view(const lod::AnchoredEye& eye, const glm::vec3& centre, double radius_m) {
     const glm::dvec3 seen = eye.metric.eye_from_world * (glm::dvec3(centre) - eye.eye);
     return lod::distance_outside_m(eye.metric, seen, radius_m) <= 0.0;
+}
+
+/// Whether a triangle, corners relative to the eye's anchor, may be in view: no plane of the picture has all of it
+/// outside.
+inline bool is_in_view(const lod::AnchoredEye& eye, const std::array<glm::vec3, 3>& corners) {
+    bool is_right = true, is_left = true, is_above = true, is_below = true, is_behind = true;
+    for (const glm::vec3& corner : corners) {
+        const glm::dvec3 seen = eye.metric.eye_from_world * (glm::dvec3(corner) - eye.eye);
+        const double half_x = -seen.z * eye.metric.tan_x, half_y = -seen.z * eye.metric.tan_y;
+        is_right = is_right && seen.x > half_x;
+        is_left = is_left && -seen.x > half_x;
+        is_above = is_above && seen.y > half_y;
+        is_below = is_below && -seen.y > half_y;
+        is_behind = is_behind && -seen.z < eye.metric.near_m;
+    }
+    return !(is_right || is_left || is_above || is_below || is_behind);
 }
 
 /// Pixels a displacement of a diamond's vertex costs anywhere in its two triangles, whose surface goes with it, and

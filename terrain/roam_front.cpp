@@ -73,8 +73,9 @@ void RoamFront::grow_arrays() {
     wake_rad_.resize(size, kNever);
     due_.reserve(size);
     merged_.reserve(size);
-    has_popped_.resize(size / 64 + 1);
-    has_met_.resize(size / 64 + 1);
+    has_popped_.resize(size);
+    has_come_unseen_.resize(size);
+    has_met_.resize(size);
     stack_.reserve(256);
     chain_.reserve(256);
 }
@@ -153,12 +154,13 @@ double RoamFront::error_px() {
 
 /// Splits one candidate whose parents are split.
 uint32_t RoamFront::split_one(DiamondIndex index) {
+    const bool is_watched = !is_cut_ && bucket_of(index) != kHiddenBucket && was_seen(index);
     const SplitOutcome outcome = mesh_.split(index);
     unlink(index);
     grow_arrays();
     tessellator_.add_vertex(index);
     note_change(index, true);
-    if (!is_gliding(index) || !is_watched(index) || !start_glide(index, false)) note_pop(index);
+    let_come(index, is_watched);
     for (uint32_t i = 0; i < outcome.no_longer_mergeable_count; ++i) {
         const DiamondIndex parent = outcome.no_longer_mergeable[i];
         if (queue_of(parent) == Queue::kLeave) stay(parent);

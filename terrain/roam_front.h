@@ -24,6 +24,7 @@
 #include "terrain/diamond_mesh.h"
 #include "terrain/diamond_rank.h"
 #include "terrain/diamond_table.h"
+#include "terrain/record_bits.h"
 #include "terrain/store/page_loader.h"
 #include "terrain/table_edit.h"
 #include "terrain/tessellator.h"
@@ -164,8 +165,14 @@ class RoamFront final : public lod::Front {
     bool find_base(DiamondIndex index, GlideBase& base) const;
     bool start_glide(DiamondIndex index, bool leaves);
     glm::vec3 base_from_place_m(const GlideBase& base, DiamondIndex index) const;
+    glm::vec3 shown_m(DiamondIndex index) const {
+        return bound(index).centre + glides_.displacement_m(index, mesh_[index].level);
+    }
     DiamondBound shown_bound(DiamondIndex index) const;
-    bool is_watched(DiamondIndex index) const;
+    DiamondBound star_bound(DiamondIndex index) const;
+    void measure_glide(const VertexGlide& glide);
+    bool was_seen(DiamondIndex candidate) const;
+    void let_come(DiamondIndex index, bool is_watched);
     void note_pop(DiamondIndex index);
     double diagonals_apart_px(DiamondIndex index, const GlideBase& base, const glm::vec3& vertex_m) const;
     void note_flip(const VertexGlide& glide);
@@ -204,7 +211,7 @@ class RoamFront final : public lod::Front {
     EyeOdometer odometer_;
     uint8_t stamp_ = 0;
     std::vector<DiamondIndex> due_, chain_, stack_, merged_;
-    std::vector<uint64_t> has_met_;  ///< a bit a record, all clear between uses
+    RecordBits has_met_;  ///< all clear between uses
 
     std::unique_ptr<PageLoader> loader_;  ///< null: no page is ever absent
     VertexGlides glides_;
@@ -218,11 +225,13 @@ class RoamFront final : public lod::Front {
     double popped_px_ = 0.0;            ///< … the surface has jumped where vertices did not glide
     double edited_px_ = 0.0;            ///< … an edit has moved any vertex
     double most_popped_px_ = 0.0;       ///< the largest error of a diamond that did not
-    std::vector<uint64_t> has_popped_;  ///< a bit a record: in view, in this frame, without a glide
+    RecordBits has_popped_;             ///< in this frame, in view, without a glide
+    RecordBits has_come_unseen_;        ///< in this frame, where no eye looked in the last
     std::vector<DiamondIndex> back_;
     struct MovedVertex {
-        DiamondBound around;
-        glm::vec3 way;
+        DiamondIndex index = kOutside;
+        glm::vec3 way_m{0.0f};
+        DiamondBound around;  ///< the triangles at the vertex, when the edit was made
     };
     std::vector<MovedVertex> moved_;  ///< by edits since the last frame
     struct FreshGround {

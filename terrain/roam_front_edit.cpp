@@ -48,6 +48,8 @@ FrontEditCounts RoamFront::edit(const GroundEdit& edit) {
         glide_px_ = 0.0;
         measure_glides();
     }
+    for (MovedVertex& moved : moved_)
+        moved.around = star_bound(moved.index);
     return counts;
 }
 
@@ -82,8 +84,7 @@ void RoamFront::take_facts(DiamondIndex index, const DiamondSource& now, FrontEd
     if (index >= kCornerCount && !mesh_[index].is_split) return;
     DiamondSource before = now;
     before.height_m = before_m;
-    const DiamondBound now_there = shown_bound(index);
-    moved_.push_back({now_there, now_there.centre - bound_of_(mesh_[index], before).centre});
+    moved_.push_back({index, bound(index).centre - bound_of_(mesh_[index], before).centre, {}});
     tessellator_.add_vertex(index);
     ++counts.vertices;
 }
@@ -102,7 +103,7 @@ void RoamFront::end_glides_over(const data::SampleRange& range) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
             if (!meets(range, mesh_[glide.index].centre(), table_.domain.reach(level))) continue;
             back_.push_back(glide.index);
-            moved_.push_back({shown_bound(glide.index), -glide.shown_m});
+            moved_.push_back({glide.index, -glide.shown_m, {}});
         }
     }
     for (DiamondIndex index : back_) {
@@ -122,7 +123,7 @@ void RoamFront::measure_edit() {
     });
     edited_px_ = 0.0;
     for (const MovedVertex& moved : moved_)
-        edited_px_ = std::max(edited_px_, displacement_px(odometer_.eyes(), moved.around, moved.way));
+        edited_px_ = std::max(edited_px_, displacement_px(odometer_.eyes(), moved.around, moved.way_m));
     moved_.clear();
     if (is_cut_) edited_px_ = 0.0;
 }

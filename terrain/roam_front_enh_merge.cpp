@@ -78,10 +78,8 @@ bool RoamFront::is_family_within(DiamondIndex top, Bucket limit) {
     while (!stack_.empty() && is_within) {
         const DiamondIndex index = stack_.back();
         stack_.pop_back();
-        uint64_t& word = has_met_[index / 64];
-        const uint64_t bit = uint64_t{1} << (index % 64);
-        if ((word & bit) != 0) continue;
-        word |= bit;
+        if (has_met_[index]) continue;
+        has_met_.set(index, true);
         merged_.push_back(index);
         if (wake_m_[index] == kNever) rank({&index, 1});
         is_within = bucket_of(index) < limit;
@@ -91,7 +89,7 @@ bool RoamFront::is_family_within(DiamondIndex top, Bucket limit) {
         }
     }
     for (DiamondIndex index : merged_)
-        has_met_[index / 64] = 0;
+        has_met_.set(index, false);
     return is_within;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/bintree_triangle.h"
 #include "terrain/displacement.h"
 #include "terrain/roam_front.h"
 
@@ -74,7 +75,8 @@ DiamondBound RoamFront::shown_bound(DiamondIndex index) const {
     if (farthest_m > kSmallShare * shown.radius_m) {
         const auto [from, to] = mesh_.edge_ends(index);
         farthest_m = glm::length(glides_.displacement_m(index, mesh_[index].level));
-        for (const DiamondIndex corner : {from, to, mesh_[index].parent0, mesh_[index].parent1}) {
+        const auto [apex, opposite] = mesh_[index].parents();
+        for (const DiamondIndex corner : {from, to, apex, opposite}) {
             if (!is_record(corner)) continue;
             const glm::vec3 way = glides_.displacement_m(corner, mesh_[corner].level);
             farthest_m = std::max(farthest_m, glm::length(way));
@@ -82,6 +84,39 @@ DiamondBound RoamFront::shown_bound(DiamondIndex index) const {
     }
     shown.radius_m += farthest_m;
     return shown;
+}
+
+/// The sphere around a vertex's place that holds the triangles of the mesh at that vertex, as they are shown. Corners
+/// and split diamonds only. Cost: a look at a dozen triangles a level below.
+DiamondBound RoamFront::star_bound(DiamondIndex index) const {
+    DiamondBound star = bound(index);
+    const glm::vec3 centre = star.centre;
+    if (index < kCornerCount) return shown_bound(kRoot);
+    star.radius_m = glm::length(shown_m(index) - centre);
+    const auto [from, to] = mesh_.edge_ends(index);
+    std::array<BintreeTriangle, 4 + 2 * kMostLevels> waiting;
+    size_t count = 0;
+    for (int half = 0; half < 2; ++half) {
+        const DiamondIndex apex = mesh_[index].parent(static_cast<uint32_t>(half));
+        if (!is_record(apex)) continue;
+        const bool is_first = half == 0;
+        for (const BintreeTriangle& quarter :
+             children_of(mesh_, {index, half, apex, is_first ? from : to, is_first ? to : from}))
+            waiting[count++] = quarter;
+    }
+    while (count > 0) {
+        const BintreeTriangle triangle = waiting[--count];
+        if (is_leaf(mesh_, triangle)) {
+            for (const DiamondIndex corner : {triangle.apex, triangle.left, triangle.right})
+                star.radius_m = std::max(star.radius_m, glm::length(shown_m(corner) - centre));
+            continue;
+        }
+        for (const BintreeTriangle& child : children_of(mesh_, triangle)) {
+            if (child.apex == index || child.left == index || child.right == index) waiting[count++] = child;
+        }
+    }
+    star.radius_m *= 1.0f + 0x1p-20f;
+    return star;
 }
 
 /// Triangles of the mesh that hang on a diamond's split.
@@ -146,12 +181,23 @@ void RoamFront::measure_glides() {
     for (int level = 0; level <= table_.domain.finest_level(); ++level) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
             tessellator_.add_vertex(glide.index);
-            const DiamondBound around = shown_bound(glide.index);
-            glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), around, glide.shown_m));
-            glided_px_ = std::max(glided_px_,
-                                  displacement_px(odometer_.eyes(), around, glide.shown_m - glide.before_m));
+            measure_glide(glide);
         }
     }
+}
+
+/// What a glide costs where it is shown and by how far it has moved. Its diamond's sphere is known at once, but larger
+/// than the triangles that hang on the vertex, which are looked for where that matters.
+void RoamFront::measure_glide(const VertexGlide& glide) {
+    const glm::vec3 step_m = glide.shown_m - glide.before_m;
+    DiamondBound around = shown_bound(glide.index);
+    if (displacement_px(odometer_.eyes(), around, glide.shown_m) <= glide_px_ &&
+        displacement_px(odometer_.eyes(), around, step_m) <= glided_px_) {
+        return;
+    }
+    around = star_bound(glide.index);
+    glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), around, glide.shown_m));
+    glided_px_ = std::max(glided_px_, displacement_px(odometer_.eyes(), around, step_m));
 }
 
 }  // namespace terrain

@@ -48,26 +48,40 @@ double gap_px(std::span<const AnchoredEye> eyes, const DiamondBound& diamond, co
 
 }  // namespace
 
-/// Whether any eye saw a diamond's surface in the last frame and sees it now; otherwise nobody sees it move.
-bool RoamFront::is_watched(DiamondIndex index) const {
-    const std::span<const AnchoredEye> now = odometer_.eyes(), before = odometer_.eyes_before();
-    const DiamondBound diamond = shown_bound(index);
-    const auto radius = static_cast<double>(diamond.radius_m);
-    for (size_t i = 0; i < std::min(now.size(), before.size()); ++i) {
-        if (is_in_view(now[i], diamond.centre, radius) && is_in_view(before[i], diamond.centre, radius))
-            return true;
+/// Whether any eye saw, in the last frame, a triangle that a candidate's split will cut, where it was shown then. A
+/// triangle that has come in this frame is as good as what it came from.
+bool RoamFront::was_seen(DiamondIndex candidate) const {
+    const auto [from, to] = mesh_.edge_ends(candidate);
+    const auto then_m = [this](DiamondIndex corner) {
+        const VertexGlide* glide = glides_.find(corner, mesh_[corner].level);
+        return bound(corner).centre + (glide != nullptr ? glide->before_m : glm::vec3(0.0f));
+    };
+    for (const DiamondIndex apex : mesh_[candidate].parents()) {
+        if (!is_record(apex) || has_come_unseen_[apex]) continue;
+        const std::array<glm::vec3, 3> corners{then_m(apex), then_m(from), then_m(to)};
+        for (const AnchoredEye& eye : odometer_.eyes_before()) {
+            if (is_in_view(eye, corners)) return true;
+        }
     }
     return false;
+}
+
+/// Lets a vertex come that has just been split in: gliding where somebody watches, at once where nobody can tell.
+void RoamFront::let_come(DiamondIndex index, bool is_watched) {
+    if (is_cut_) return;
+    has_come_unseen_.set(index, !is_watched);
+    if (!is_watched || bucket_of(index) <= kFlatBucket) return;
+    if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
 }
 
 /// A vertex that appears or goes at once, in sight and not in a cut, moves the surface by as far as it is from its
 /// edge. Where its kin does so in the same frame the surface was and is as wrong as the coarsest of them may be.
 void RoamFront::note_pop(DiamondIndex index) {
-    if (is_cut_ || bucket_of(index) <= kFlatBucket || !is_watched(index)) return;
+    if (is_cut_ || bucket_of(index) <= kFlatBucket) return;
     const double error_px = static_cast<double>(scale_.upper_px(bucket_of(index)));
     most_popped_px_ = std::max(most_popped_px_, error_px);
     const bool is_alone = !has_popped_kin(index);
-    has_popped_[index / 64] |= uint64_t{1} << (index % 64);
+    has_popped_.set(index, true);
     const double most_px = 2.0 * (is_alone ? error_px : most_popped_px_);
     if (most_px <= popped_px_) return;
     GlideBase base;
@@ -81,9 +95,7 @@ void RoamFront::note_pop(DiamondIndex index) {
 }
 
 bool RoamFront::has_popped_kin(DiamondIndex index) const {
-    const auto has_popped = [this](DiamondIndex kin) {
-        return is_record(kin) && (has_popped_[kin / 64] >> (kin % 64) & 1) != 0;
-    };
+    const auto has_popped = [this](DiamondIndex kin) { return is_record(kin) && has_popped_[kin]; };
     const Diamond& d = mesh_[index];
     bool any = has_popped(d.parent0) || has_popped(d.parent1);
     for (int side = 0; side < 4; ++side)
@@ -92,7 +104,8 @@ bool RoamFront::has_popped_kin(DiamondIndex index) const {
 }
 
 void RoamFront::forget_pops() {
-    if (most_popped_px_ > 0.0) std::fill(has_popped_.begin(), has_popped_.end(), 0);
+    has_popped_.clear();
+    has_come_unseen_.clear();
     most_popped_px_ = popped_px_ = 0.0;
 }
 
