@@ -27,6 +27,9 @@ glm::dvec2 longest_cell_m(const DiamondTable& table) {
 
 BoundMaker::BoundMaker(const DiamondTable& table) : frame_(table.frame), domain_(table.domain) {
     const Domain& domain = table.domain;
+    constexpr int kNowhere = 1 << 30;
+    clamped_from_ = {domain.width > domain.side() ? kNowhere : domain.width,
+                     domain.height > domain.side() ? kNowhere : domain.height};
     middle_ = {domain.width / 2, domain.height / 2};
     middle_height_m_ = static_cast<float>(0.5 * (double(table.min_m) + double(table.max_m)));
     anchor_ = frame_.world_from_sample(middle_.x, middle_.y, double(middle_height_m_));

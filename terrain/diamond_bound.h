@@ -33,7 +33,10 @@ class BoundMaker {
     DiamondBound operator()(const Diamond& d, const DiamondSource& source) const {
         DiamondBound bound;
         bound.centre = place_m(domain_.clamped(d.centre()), source.height_m);
-        bound.error_m = source.error_m();
+        const int reach_cells = domain_.reach(d.level);
+        const bool is_astride =
+            int(d.x) + reach_cells >= clamped_from_.x || int(d.y) + reach_cells >= clamped_from_.y;
+        bound.error_m = source.error_m() * (is_astride ? kAstride : 1.0f);
         const float rise = source.rise_m();
         const float reach = reach_m_[d.level];
         const float rounding =
@@ -47,18 +50,22 @@ class BoundMaker {
     lod::FourBounds operator()(const std::array<BoundFacts, 4>& of) const {
         using lod::Float4, lod::Int4;
         lod::FourBounds bound;
-        Int4 column{}, row{}, codes{};
+        Int4 column{}, row{}, codes{}, reach_cells{};
         Float4 height{}, reach{};
         for (size_t lane = 0; lane < 4; ++lane) {
             const Diamond& d = *of[lane].diamond;
             column[lane] = d.x;
             row[lane] = d.y;
             reach[lane] = reach_m_[d.level];
+            reach_cells[lane] = domain_.reach(d.level);
             height[lane] = of[lane].source->height_m;
             codes[lane] = of[lane].source->error_code | of[lane].source->rise_code() << 16;
         }
         place_m(column, row, height, bound);
+        const Int4 is_astride =
+            (column + reach_cells >= clamped_from_.x) | (row + reach_cells >= clamped_from_.y);
         bound.error_m = decode_lengths(codes & 0xffff);
+        bound.error_m = is_astride ? bound.error_m * kAstride : bound.error_m;
         const Float4 rise = decode_lengths((codes >> 16) & 0xffff);
         const Float4 rounding = (lod::abs(bound.x) + lod::abs(bound.y) + lod::abs(bound.z)) * kRounding;
         bound.radius_m =
@@ -69,6 +76,9 @@ class BoundMaker {
   private:
     /// Half of it for the place, half for the metric's own roundings.
     static constexpr float kRounding = 0x1p-21f;
+    /// Of errors astride the raster's border: where vertices are clamped off their edges a split changes a diagonal at
+    /// once, which no glide hides; it is to come while it is half as large.
+    static constexpr float kAstride = 2.0f;
 
     glm::vec3 place_m(GridPoint p, float height_m) const {
         if (!is_upright_) return glm::vec3(frame_.world_from_sample(p.x, p.y, double(height_m)) - anchor_);
@@ -93,6 +103,8 @@ class BoundMaker {
 
     data::GroundFrame frame_;
     Domain domain_;
+    GridPoint
+        clamped_from_;  ///< first column and row of the domain beyond the raster; far away where there is none
     glm::dvec3 anchor_{0.0};  ///< of the sample in the middle, halfway up
     /// A plane whose rows and columns run along its axes: then products of single precision are good enough.
     bool is_upright_ = false;

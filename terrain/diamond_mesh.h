@@ -21,10 +21,11 @@ using DiamondIndex = uint32_t;
 
 /// Bits of an index in a record: 134 million records, about 100 million triangles.
 inline constexpr uint32_t kIndexBits = 27;
-inline constexpr DiamondIndex kOutside = (1u << kIndexBits) - 1;  ///< beyond the domain, or finer than the grid
-inline constexpr DiamondIndex kUnsplit = kOutside - 1;            ///< parent place whose diamond is not split
-inline constexpr DiamondIndex kCornerCount = 4;        ///< records 0..3: the domain's corners, always there
-inline constexpr DiamondIndex kRoot = 4;               ///< record of the one diamond of level 0
+inline constexpr DiamondIndex kOutside =
+    (1u << kIndexBits) - 1;                             ///< beyond the domain, or finer than the grid
+inline constexpr DiamondIndex kUnsplit = kOutside - 1;  ///< parent place whose diamond is not split
+inline constexpr DiamondIndex kCornerCount = 4;         ///< records 0..3: the domain's corners, always there
+inline constexpr DiamondIndex kRoot = 4;                ///< record of the one diamond of level 0
 
 inline constexpr uint32_t kNoKids = 0;  ///< block of an unsplit diamond's children: all kOutside
 
@@ -40,10 +41,10 @@ static_assert((1u << kMostLog2Side) <= kMostCoordinate);
 /// One diamond, packed: its size is a third of what the mesh takes. `bucket`, `queue` and `stamp` belong to whoever
 /// ranks the diamonds; the mesh only clears them.
 struct Diamond {
-    uint32_t x : 23 = 0;         ///< of the centre
-    uint32_t level : 6 = 0;      ///< kFreeLevel: on the free list
-    uint32_t apex_dir : 3 = 0;   ///< 0 … 7, diamond.h
-    uint32_t y : 23 = 0;         ///< of the centre
+    uint32_t x : 23 = 0;        ///< of the centre
+    uint32_t level : 6 = 0;     ///< kFreeLevel: on the free list
+    uint32_t apex_dir : 3 = 0;  ///< 0 … 7, diamond.h
+    uint32_t y : 23 = 0;        ///< of the centre
     uint32_t is_split : 1 = 0;
     uint32_t bucket : 8 = 0;
     uint32_t parent0 : 27 = kOutside;  ///< lies in `apex_dir`

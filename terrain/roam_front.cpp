@@ -92,9 +92,9 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
     collect_due();
     const bool is_incoherent = due_.size() > mesh_.live_count() / kIncoherentShare && due_.size() > 64;
     const double passed_s = time_s - std::exchange(now_s_, time_s);
+    measure_edit();
     advance_glides(step == EyeOdometer::Step::kIncomparable || passed_s < 0.0 || passed_s > kLongestFrame_s ||
                    (is_incoherent && is_leap()));
-    measure_edit();
     if (options_.is_pruning && is_incoherent && is_cut_) take_back_in_cut();
     // Some may have gone with what was taken back.
     std::erase_if(due_,

@@ -169,7 +169,7 @@ class RoamFront final : public lod::Front {
         return bound(index).centre + glides_.displacement_m(index, mesh_[index].level);
     }
     DiamondBound shown_bound(DiamondIndex index) const;
-    DiamondBound star_bound(DiamondIndex index) const;
+    double shift_px(DiamondIndex index, const glm::vec3& way_m) const;
     void measure_glide(const VertexGlide& glide);
     bool was_seen(DiamondIndex candidate) const;
     void let_come(DiamondIndex index, bool is_watched);
@@ -219,19 +219,18 @@ class RoamFront final : public lod::Front {
     bool is_cut_ = true;  ///< this frame has nothing in common with the last: nothing glides
     uint64_t idle_triangles_ =
         0;  ///< of the mesh, by splits that draw nothing new: patches end with the grid
-    uint64_t leaving_triangles_ = 0;    ///< that go when what leaves has left
-    double glide_px_ = 0.0;             ///< farthest any vertex is shown from its place
-    double glided_px_ = 0.0;            ///< farthest any vertex has moved since the last frame
-    double popped_px_ = 0.0;            ///< … the surface has jumped where vertices did not glide
-    double edited_px_ = 0.0;            ///< … an edit has moved any vertex
-    double most_popped_px_ = 0.0;       ///< the largest error of a diamond that did not
-    RecordBits has_popped_;             ///< in this frame, in view, without a glide
-    RecordBits has_come_unseen_;        ///< in this frame, where no eye looked in the last
+    uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
+    double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
+    double glided_px_ = 0.0;          ///< farthest any vertex has moved since the last frame
+    double popped_px_ = 0.0;          ///< … the surface has jumped where vertices did not glide
+    double edited_px_ = 0.0;          ///< … an edit has moved any vertex
+    double most_popped_px_ = 0.0;     ///< the largest error of a diamond that did not
+    RecordBits has_popped_;           ///< in this frame, in view, without a glide
+    RecordBits has_come_unseen_;      ///< in this frame, where no eye looked in the last
     std::vector<DiamondIndex> back_;
     struct MovedVertex {
         DiamondIndex index = kOutside;
         glm::vec3 way_m{0.0f};
-        DiamondBound around;  ///< the triangles at the vertex, when the edit was made
     };
     std::vector<MovedVertex> moved_;  ///< by edits since the last frame
     struct FreshGround {

@@ -48,8 +48,6 @@ FrontEditCounts RoamFront::edit(const GroundEdit& edit) {
         glide_px_ = 0.0;
         measure_glides();
     }
-    for (MovedVertex& moved : moved_)
-        moved.around = star_bound(moved.index);
     return counts;
 }
 
@@ -84,7 +82,7 @@ void RoamFront::take_facts(DiamondIndex index, const DiamondSource& now, FrontEd
     if (index >= kCornerCount && !mesh_[index].is_split) return;
     DiamondSource before = now;
     before.height_m = before_m;
-    moved_.push_back({index, bound(index).centre - bound_of_(mesh_[index], before).centre, {}});
+    moved_.push_back({index, bound(index).centre - bound_of_(mesh_[index], before).centre});
     tessellator_.add_vertex(index);
     ++counts.vertices;
 }
@@ -103,7 +101,7 @@ void RoamFront::end_glides_over(const data::SampleRange& range) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
             if (!meets(range, mesh_[glide.index].centre(), table_.domain.reach(level))) continue;
             back_.push_back(glide.index);
-            moved_.push_back({glide.index, -glide.shown_m, {}});
+            moved_.push_back({glide.index, -glide.shown_m});
         }
     }
     for (DiamondIndex index : back_) {
@@ -116,16 +114,15 @@ void RoamFront::end_glides_over(const data::SampleRange& range) {
     }
 }
 
-/// Tells how far the ground's own changes moved vertices in view. Not in a cut, which is no movement.
+/// Tells how far the ground's own changes moved what is in view; before anything of the mesh changes.
 void RoamFront::measure_edit() {
     std::erase_if(fresh_ground_, [&](const FreshGround& fresh) {
         return !(now_s_ >= fresh.since_s && now_s_ <= fresh.since_s + kFresh_s);
     });
     edited_px_ = 0.0;
     for (const MovedVertex& moved : moved_)
-        edited_px_ = std::max(edited_px_, displacement_px(odometer_.eyes(), moved.around, moved.way_m));
+        edited_px_ = std::max(edited_px_, shift_px(moved.index, moved.way_m));
     moved_.clear();
-    if (is_cut_) edited_px_ = 0.0;
 }
 
 }  // namespace terrain

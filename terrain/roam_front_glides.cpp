@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terrain/bintree_triangle.h"
+#include "terrain/corner_shift.h"
 #include "terrain/displacement.h"
 #include "terrain/roam_front.h"
+#include "terrain/vertex_star.h"
 
 namespace terrain {
 namespace {
@@ -86,37 +87,20 @@ DiamondBound RoamFront::shown_bound(DiamondIndex index) const {
     return shown;
 }
 
-/// The sphere around a vertex's place that holds the triangles of the mesh at that vertex, as they are shown. Corners
-/// and split diamonds only. Cost: a look at a dozen triangles a level below.
-DiamondBound RoamFront::star_bound(DiamondIndex index) const {
-    DiamondBound star = bound(index);
-    const glm::vec3 centre = star.centre;
-    if (index < kCornerCount) return shown_bound(kRoot);
-    star.radius_m = glm::length(shown_m(index) - centre);
-    const auto [from, to] = mesh_.edge_ends(index);
-    std::array<BintreeTriangle, 4 + 2 * kMostLevels> waiting;
-    size_t count = 0;
-    for (int half = 0; half < 2; ++half) {
-        const DiamondIndex apex = mesh_[index].parent(static_cast<uint32_t>(half));
-        if (!is_record(apex)) continue;
-        const bool is_first = half == 0;
-        for (const BintreeTriangle& quarter :
-             children_of(mesh_, {index, half, apex, is_first ? from : to, is_first ? to : from}))
-            waiting[count++] = quarter;
-    }
-    while (count > 0) {
-        const BintreeTriangle triangle = waiting[--count];
-        if (is_leaf(mesh_, triangle)) {
-            for (const DiamondIndex corner : {triangle.apex, triangle.left, triangle.right})
-                star.radius_m = std::max(star.radius_m, glm::length(shown_m(corner) - centre));
-            continue;
+/// Pixels that a movement of a split diamond's vertex costs, on the triangles of the mesh at that vertex as they are
+/// shown.
+double RoamFront::shift_px(DiamondIndex index, const glm::vec3& way_m) const {
+    const glm::vec3 vertex_m = shown_m(index);
+    double worst_px = 0.0;
+    visit_star(mesh_, index, [&](const BintreeTriangle& triangle) {
+        std::array<glm::vec3, 3> corners{vertex_m};
+        size_t count = 1;
+        for (const DiamondIndex corner : {triangle.apex, triangle.left, triangle.right}) {
+            if (corner != index) corners[count++] = shown_m(corner);
         }
-        for (const BintreeTriangle& child : children_of(mesh_, triangle)) {
-            if (child.apex == index || child.left == index || child.right == index) waiting[count++] = child;
-        }
-    }
-    star.radius_m *= 1.0f + 0x1p-20f;
-    return star;
+        worst_px = std::max(worst_px, corner_shift_px(odometer_.eyes(), corners, way_m));
+    });
+    return worst_px;
 }
 
 /// Triangles of the mesh that hang on a diamond's split.
@@ -152,6 +136,7 @@ void RoamFront::advance_glides(bool is_cut) {
     forget_pops();
     glided_px_ = glide_px_ = 0.0;
     if (is_cut) {
+        edited_px_ = 0.0;
         for (int level = 0; level <= table_.domain.finest_level(); ++level) {
             for (const VertexGlide& glide : glides_.at_level(level))
                 tessellator_.add_vertex(glide.index);
@@ -186,18 +171,15 @@ void RoamFront::measure_glides() {
     }
 }
 
-/// What a glide costs where it is shown and by how far it has moved. Its diamond's sphere is known at once, but larger
-/// than the triangles that hang on the vertex, which are looked for where that matters.
+/// What a glide costs where it is shown and by how far it has moved. A bound over its diamond's sphere is known at
+/// once; the triangles at the vertex are asked where that might matter.
 void RoamFront::measure_glide(const VertexGlide& glide) {
     const glm::vec3 step_m = glide.shown_m - glide.before_m;
-    DiamondBound around = shown_bound(glide.index);
-    if (displacement_px(odometer_.eyes(), around, glide.shown_m) <= glide_px_ &&
-        displacement_px(odometer_.eyes(), around, step_m) <= glided_px_) {
-        return;
-    }
-    around = star_bound(glide.index);
-    glide_px_ = std::max(glide_px_, displacement_px(odometer_.eyes(), around, glide.shown_m));
-    glided_px_ = std::max(glided_px_, displacement_px(odometer_.eyes(), around, step_m));
+    const DiamondBound around = shown_bound(glide.index);
+    if (displacement_px(odometer_.eyes(), around, glide.shown_m) > glide_px_)
+        glide_px_ = std::max(glide_px_, shift_px(glide.index, glide.shown_m));
+    if (displacement_px(odometer_.eyes(), around, step_m) > glided_px_)
+        glided_px_ = std::max(glided_px_, shift_px(glide.index, step_m));
 }
 
 }  // namespace terrain

@@ -1,6 +1,7 @@
 // What is seen to jump: vertices that appear or go without a glide, and diagonals that change at the raster's border.
 #include <algorithm>
 
+#include "terrain/corner_shift.h"
 #include "terrain/displacement.h"
 #include "terrain/roam_front.h"
 
@@ -28,22 +29,6 @@ DiagonalGap diagonal_gap(const std::array<GridPoint, 4>& grid, const std::array<
     const auto across = static_cast<float>(before / (before - after));
     const glm::vec3 crossing = glm::mix(place[0], place[1], across);
     return {crossing, glm::mix(place[3], place[2], along) - crossing};
-}
-
-/// Pixels of a gap anywhere in its diamond. It falls in straight lines from the crossing to nothing at the corners:
-/// from three times as far away as the diamond is wide, faster than what is nearer grows.
-double gap_px(std::span<const AnchoredEye> eyes, const DiamondBound& diamond, const DiagonalGap& gap) {
-    const double length = static_cast<double>(glm::length(gap.way_m));
-    double worst = 0.0;
-    for (const AnchoredEye& eye : eyes) {
-        if (!is_in_view(eye, diamond.centre, static_cast<double>(diamond.radius_m) + length)) continue;
-        const glm::dvec3 crossing = eye.metric.eye_from_world * (glm::dvec3(gap.crossing_m) - eye.eye);
-        const double wide = 2.0 * static_cast<double>(diamond.radius_m) + length;
-        worst = std::max(worst, -crossing.z >= 3.0 * wide
-                                    ? lod::screen_error_px(eye.metric, crossing, length, length)
-                                    : displacement_px({&eye, 1}, diamond, gap.way_m));
-    }
-    return worst;
 }
 
 }  // namespace
@@ -87,7 +72,7 @@ void RoamFront::note_pop(DiamondIndex index) {
     GlideBase base;
     double way_px = most_px;
     if (is_alone && find_base(index, base)) {
-        way_px = displacement_px(odometer_.eyes(), shown_bound(index), base_from_place_m(base, index));
+        way_px = shift_px(index, base_from_place_m(base, index));
         if (base.shares[2] > 0.0f)
             way_px = std::max(way_px, diagonals_apart_px(index, base, bound(index).centre));
     }
@@ -123,7 +108,15 @@ double RoamFront::diagonals_apart_px(DiamondIndex index, const GlideBase& base,
         place[i] = bound(corners[i]).centre + glides_.displacement_m(corners[i], mesh_[corners[i]].level);
     }
     place[3] = vertex_m;
-    return gap_px(odometer_.eyes(), shown_bound(index), diagonal_gap(grid, place));
+    // The gap falls in straight lines from the crossing to nothing around the quadrangle.
+    const DiagonalGap gap = diagonal_gap(grid, place);
+    double worst_px = 0.0;
+    for (const std::array<size_t, 2> side : {std::array<size_t, 2>{0, 2}, {2, 1}, {1, 3}, {3, 0}}) {
+        worst_px = std::max(
+            worst_px,
+            corner_shift_px(odometer_.eyes(), {gap.crossing_m, place[side[0]], place[side[1]]}, gap.way_m));
+    }
+    return worst_px;
 }
 
 /// A vertex off its edge, at the raster's border, glides too, but the quadrangle's diagonal changes at once.

@@ -18,7 +18,8 @@ std::string check_parents(const DiamondMesh& mesh, DiamondIndex index) {
     const Domain& domain = mesh.domain();
     int present = 0;
     for (uint32_t which = 0; which < 2; ++which) {
-        const GridPoint apex = step_from(d.centre(), static_cast<int>(d.apex_dir + 4 * which), domain.reach(d.level));
+        const GridPoint apex =
+            step_from(d.centre(), static_cast<int>(d.apex_dir + 4 * which), domain.reach(d.level));
         const DiamondIndex parent = d.parent(which);
         if (domain.contains(apex) == (parent == kOutside))
             return fault(index, d, "parent does not match the domain");
