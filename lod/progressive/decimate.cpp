@@ -186,7 +186,7 @@ double Decimator::cost_at(Edge edge, const glm::vec3& position) const {
     return cost > kNoise * sum.weight ? cost : 0.0;
 }
 
-/// The best of both ends and the middle, as far as they may move.
+/// The best of both ends and, if it may be off them, the middle, as far as they may move.
 std::optional<Target> Decimator::fallback_target(Edge edge, bool only_safe) const {
     const auto [a, b] = ends(edge);
     const glm::vec3 &at_a = positions_[index(a)], &at_b = positions_[index(b)];
@@ -202,7 +202,8 @@ std::optional<Target> Decimator::fallback_target(Edge edge, bool only_safe) cons
     if (is_a_fixed && is_b_fixed) return best;
     if (!is_b_fixed) attempt(at_a);
     if (!is_a_fixed) attempt(at_b);
-    if (!is_a_fixed && !is_b_fixed) attempt(glm::vec3(0.5 * (glm::dvec3(at_a) + glm::dvec3(at_b))));
+    if (!is_a_fixed && !is_b_fixed && options_.place == CollapsePlace::kBest)
+        attempt(glm::vec3(0.5 * (glm::dvec3(at_a) + glm::dvec3(at_b))));
     return best;
 }
 
@@ -210,6 +211,7 @@ std::optional<Target> Decimator::best_target(Edge edge) const {
     const auto [a, b] = ends(edge);
     const bool is_free =
         !is_held(a) && !is_held(b) && half_edges_.is_boundary(a) == half_edges_.is_boundary(b);
+    if (options_.place == CollapsePlace::kEnd) return fallback_target(edge, false);
     if (options_.metric == CollapseMetric::kEdgeLength && is_free) {
         const glm::dvec3 middle = 0.5 * (glm::dvec3(positions_[index(a)]) + glm::dvec3(positions_[index(b)]));
         return Target{glm::vec3(middle), 0.0};

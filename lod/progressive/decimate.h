@@ -18,8 +18,14 @@ enum class CollapseMetric : uint8_t {
     kEdgeLength  ///< the source's: the shortest edge first, the new vertex in its middle
 };
 
+enum class CollapsePlace : uint8_t {
+    kBest,  ///< where the metric is least
+    kEnd    ///< at one of the two ends: all vertices of all levels are places of the full mesh
+};
+
 struct DecimateOptions {
     CollapseMetric metric = CollapseMetric::kQuadric;
+    CollapsePlace place = CollapsePlace::kBest;
     double max_turn_cos = 0.5;  ///< a triangle's normal before and after: no smaller cosine than this
     double min_quality =
         0.02;  ///< 4 sqrt(3) area / (l0^2 + l1^2 + l2^2), 1 is equilateral; or as bad as before

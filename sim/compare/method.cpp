@@ -10,7 +10,7 @@
 namespace sim {
 namespace {
 
-constexpr double kCoarse_px = 1e9;
+constexpr double kCoarse_px = 1e5;
 
 uint64_t table_bytes(const terrain::DiamondTable& table) {
     return table.slots.size() * sizeof(terrain::DiamondSource);
@@ -86,6 +86,10 @@ std::vector<Method> make_methods(const data::HeightGrid& grid, const terrain::Di
     if (is_wanted("roam")) methods.push_back(make_roam(table, "roam", 0.0));
     for (const terrain::RivalClaims& claims : terrain::kRivals) {
         if (!is_wanted(std::string(claims.name))) continue;
+        if (!terrain::can_make(claims.kind, grid)) {
+            say_progress(std::string(claims.name) + " is left out: the raster is too large for it");
+            continue;
+        }
         say_progress("preparing " + std::string(claims.name));
         methods.push_back(make_rival(grid, table, claims, options));
     }

@@ -11,7 +11,7 @@
 
 namespace terrain {
 
-enum class Rival : uint8_t { kChunkedQuadtree, kGeoMipmap, kVipmBlocks, kRoamMergeOnly, kCount };
+enum class Rival : uint8_t { kChunkedQuadtree, kGeoMipmap, kVipmBlocks, kVdpm, kRoamMergeOnly, kCount };
 
 /// How a method keeps the background from showing between its pieces.
 enum class Seams : uint8_t {
@@ -30,6 +30,7 @@ inline constexpr std::array<RivalClaims, static_cast<size_t>(Rival::kCount)> kRi
     {Rival::kChunkedQuadtree, "chunked_quadtree", Seams::kSkirts},
     {Rival::kGeoMipmap, "geo_mipmap", Seams::kConforming},
     {Rival::kVipmBlocks, "vipm_blocks", Seams::kConforming},
+    {Rival::kVdpm, "vdpm", Seams::kConforming},
     {Rival::kRoamMergeOnly, "roam_merge_only", Seams::kConforming},
 }};
 
@@ -38,6 +39,9 @@ struct RivalOptions {
     unsigned threads = 2;       ///< of the preparation, >= 1; the result does not depend on it
     int block_cells = 32;       ///< along a block's or a chunk's side: 4 … 64, a power of two
 };
+
+/// Whether a method can be prepared for a grid of this size.
+bool can_make(Rival kind, const data::HeightGrid& grid);
 
 /// Prepares a method for one grid; its coarsest mesh. What it costs is what this call takes.
 /// @param grid   must outlive the front

@@ -71,7 +71,7 @@ TEST_P(RivalCracks, None) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RivalCracks,
-    testing::Combine(testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks,
+    testing::Combine(testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm,
                                      Rival::kRoamMergeOnly),
                      testing::Values(31u, 32u)),
     [](const auto& trial) {
