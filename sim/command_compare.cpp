@@ -53,8 +53,8 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
         ->type_name("PX,...")
         ->capture_default_str();
     app.add_option("--methods", arguments.methods, "names of the methods to compare; all when not given")
-        ->check(CLI::IsMember(
-            {"roam_glide", "roam", "chunked_quadtree", "geo_mipmap", "vipm_blocks", "roam_merge_only"}))
+        ->check(CLI::IsMember({"roam_glide", "roam", "chunked_quadtree", "geo_mipmap", "vipm_blocks", "vdpm",
+                               "roam_merge_only"}))
         ->delimiter(',')
         ->type_name("NAME,...");
     add_size(app, arguments.size);

@@ -108,7 +108,8 @@ lod::Result<Comparison> compare_methods(const data::HeightGrid& grid, const Comp
     Rig rig{grid, options, plan_sorties(grid, options.sorties),
             make_methods(grid, table, watch.seconds(), options.methods), std::move(*renderer)};
 
-    Comparison comparison{grid.width, grid.height, grid.frame.cell_m().x, {}, {}};
+    Comparison comparison{grid.width, grid.height, grid.frame.cell_m().x, {}, left_out(grid, options.methods),
+                          {}};
     for (const double target_px : options.targets_px) {
         if (auto added = add_rows(rig, target_px, comparison.rows); !added) return added.error();
     }

@@ -34,6 +34,7 @@ struct Comparison {
     int width = 0, height = 0;  ///< samples
     double cell_m = 0.0;
     std::vector<CompareRow> rows;  ///< by target, then by method
+    std::vector<LeftOut> left_out;
     std::vector<RequirementRow> requirements;
 };
 

@@ -9,10 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Progressive meshes that depend on the view are part of the comparison, but not of the program yet.
-constexpr const char* kPendingMethod = "vdpm";
-constexpr const char* kPendingNote = "with issue 5";
-
 std::string line_of(const CompareRow& row) {
     const Inspection& seen = row.inspection;
     const RaceTimes& times = row.times;
@@ -27,8 +23,8 @@ std::string line_of(const CompareRow& row) {
         seen.popping_px, row.memory_mb, row.pool_mb, row.prepare_s);
 }
 
-std::string pending_line(size_t columns) {
-    std::string line = fmt::format("| {} | {} |", kPendingMethod, kPendingNote);
+std::string line_of(const LeftOut& method, size_t columns) {
+    std::string line = fmt::format("| {} | {} |", method.name, method.reason);
     for (size_t i = 2; i < columns; ++i)
         line += " |";
     return line + "\n";
@@ -76,8 +72,8 @@ json json_of(const CompareRow& row) {
 }
 
 /// Every column of the contract, empty.
-json pending_row(double target_px) {
-    json row = {{"method", kPendingMethod}, {"target_px", target_px}, {"note", kPendingNote}};
+json json_of(const LeftOut& method, double target_px) {
+    json row = {{"method", method.name}, {"target_px", target_px}, {"note", method.reason}};
     for (const char* column :
          {"measured_px", "triangles", "cpu_us_p50", "cpu_us_p99", "frame_ms_p50", "commands", "upload_bytes",
           "changed_share", "popping_px", "memory_mb", "prepare_s"}) {
@@ -107,7 +103,9 @@ std::string table_of(const Comparison& comparison) {
         rule(14);
     for (const CompareRow& row : comparison.rows)
         text += line_of(row);
-    text += pending_line(14) + "\n| method |";
+    for (const LeftOut& method : comparison.left_out)
+        text += line_of(method, 14);
+    text += "\n| method |";
     for (const Requirement& requirement : kRequirements)
         text += fmt::format(" {}: {} ≤ {} |", requirement.name, requirement.figure, requirement.limit);
     text += "\n" + rule(kRequirements.size() + 1);
@@ -117,7 +115,9 @@ std::string table_of(const Comparison& comparison) {
             text += fmt::format(" {} |", cell_of(kRequirements[i], row.figures[i]));
         text += "\n";
     }
-    return text + pending_line(kRequirements.size() + 1);
+    for (const LeftOut& method : comparison.left_out)
+        text += line_of(method, kRequirements.size() + 1);
+    return text;
 }
 
 json json_of(const Comparison& comparison) {
@@ -127,11 +127,14 @@ json json_of(const Comparison& comparison) {
         rows.push_back(json_of(row));
         const bool is_last =
             i + 1 == comparison.rows.size() || comparison.rows[i + 1].target_px != row.target_px;
-        if (is_last) rows.push_back(pending_row(row.target_px));
+        if (!is_last) continue;
+        for (const LeftOut& method : comparison.left_out)
+            rows.push_back(json_of(method, row.target_px));
     }
     for (const RequirementRow& row : comparison.requirements)
         requirements.push_back(json_of(row));
-    requirements.push_back({{"method", kPendingMethod}, {"note", kPendingNote}});
+    for (const LeftOut& method : comparison.left_out)
+        requirements.push_back({{"method", method.name}, {"note", method.reason}});
     return {{"rows", std::move(rows)},
             {"requirements", std::move(requirements)},
             {"width", comparison.width},

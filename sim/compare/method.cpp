@@ -56,6 +56,11 @@ Method make_rival(const data::HeightGrid& grid, const terrain::DiamondTable& tab
     return method;
 }
 
+bool is_wanted(const MethodOptions& options, std::string_view name) {
+    return options.only.empty() ||
+           std::find(options.only.begin(), options.only.end(), name) != options.only.end();
+}
+
 /// With room to grow: vertices that are there from the start do not.
 lod::PoolRegion roomy(const lod::PoolRegion& need, const Method& method) {
     const uint32_t vertices = need.vertex_capacity + (method.make ? need.vertex_capacity / 4 : 0);
@@ -75,21 +80,22 @@ void place_alone(Method& method) {
 
 }  // namespace
 
+std::vector<LeftOut> left_out(const data::HeightGrid& grid, const MethodOptions& options) {
+    std::vector<LeftOut> out;
+    for (const terrain::RivalClaims& claims : terrain::kRivals) {
+        if (is_wanted(options, claims.name) && !terrain::can_make(claims.kind, grid))
+            out.push_back({std::string(claims.name), "too many samples"});
+    }
+    return out;
+}
+
 std::vector<Method> make_methods(const data::HeightGrid& grid, const terrain::DiamondTable& table,
                                  double table_s, const MethodOptions& options) {
-    const auto is_wanted = [&](const std::string& name) {
-        return options.only.empty() ||
-               std::find(options.only.begin(), options.only.end(), name) != options.only.end();
-    };
     std::vector<Method> methods;
-    if (is_wanted("roam_glide")) methods.push_back(make_roam(table, "roam_glide", kGlide_s));
-    if (is_wanted("roam")) methods.push_back(make_roam(table, "roam", 0.0));
+    if (is_wanted(options, "roam_glide")) methods.push_back(make_roam(table, "roam_glide", kGlide_s));
+    if (is_wanted(options, "roam")) methods.push_back(make_roam(table, "roam", 0.0));
     for (const terrain::RivalClaims& claims : terrain::kRivals) {
-        if (!is_wanted(std::string(claims.name))) continue;
-        if (!terrain::can_make(claims.kind, grid)) {
-            say_progress(std::string(claims.name) + " is left out: the raster is too large for it");
-            continue;
-        }
+        if (!is_wanted(options, claims.name) || !terrain::can_make(claims.kind, grid)) continue;
         say_progress("preparing " + std::string(claims.name));
         methods.push_back(make_rival(grid, table, claims, options));
     }

@@ -38,7 +38,13 @@ struct MethodOptions {
     std::vector<std::string> only;  ///< names; empty: all
 };
 
-/// All methods over one grid, prepared one after the other: ROAM with and without gliding, then the rivals.
+/// A method that cannot be prepared for a grid.
+struct LeftOut {
+    std::string name, reason;
+};
+std::vector<LeftOut> left_out(const data::HeightGrid& grid, const MethodOptions& options);
+
+/// All methods over one grid that can be prepared for it, prepared one after the other: ROAM with and without gliding, then the rivals.
 /// @param grid, table  must outlive them; the table is the grid's
 /// @param table_s      what making the table took
 std::vector<Method> make_methods(const data::HeightGrid& grid, const terrain::DiamondTable& table,
