@@ -94,11 +94,21 @@ void MeshBody::begin_frame(std::span<const View> views_body, double time_s) {
 }
 
 void MeshBody::refresh_due() {
-    for (uint32_t record : ranks_.due()) {
-        if (ranks_.queue(record) == NodeQueue::kNone) continue;
-        const Bucket before = ranks_.bucket(record);
-        ranks_.refresh(record);
-        if (ranks_.queue(record) == NodeQueue::kLeave && ranks_.bucket(record) > before) stay(record);
+    const std::span<const uint32_t> due = ranks_.due();
+    std::array<uint32_t, 4> some{};
+    std::array<Bucket, 4> before{};
+    for (size_t next = 0; next < due.size();) {
+        size_t count = 0;
+        for (; next < due.size() && count < some.size(); ++next) {
+            if (ranks_.queue(due[next]) == NodeQueue::kNone) continue;
+            before[count] = ranks_.bucket(due[next]);
+            some[count++] = due[next];
+        }
+        ranks_.refresh({some.data(), count});
+        for (size_t i = 0; i < count; ++i) {
+            if (ranks_.queue(some[i]) == NodeQueue::kLeave && ranks_.bucket(some[i]) > before[i])
+                stay(some[i]);
+        }
     }
 }
 
@@ -107,9 +117,8 @@ double MeshBody::refine_error_px() {
     while (!is_asleep_ && !splits.is_empty()) {
         const Bucket bucket = splits.highest();
         if (bucket == kHiddenBucket) return 0.0;
-        const uint32_t head = splits.head(bucket);
-        if (!ranks_.is_fresh(head)) {
-            ranks_.refresh(head);
+        if (!ranks_.is_fresh(splits.head(bucket))) {
+            ranks_.refresh_head(NodeQueue::kSplit, bucket);
             continue;
         }
         if (options_.policy == DetailPolicy::kSize) return triangles() < wanted_triangles_ ? kDemand_px : 0.0;
@@ -125,14 +134,15 @@ double MeshBody::coarsen_error_px() {
         const Bucket bucket = merges.lowest();
         const uint32_t head = merges.head(bucket);
         if (!ranks_.is_fresh(head)) {
-            ranks_.refresh(head);
+            ranks_.refresh_head(NodeQueue::kMerge, bucket);
             continue;
         }
-        const NodeId blocker = cut_.collapse_blocker(node_of(head));
+        const NodeId blocker = head == ready_ ? kNoNode : cut_.collapse_blocker(node_of(head));
         if (blocker != kNoNode) {
             ranks_.block(head, record_of(blocker));
             continue;
         }
+        ready_ = head;
         if (options_.policy == DetailPolicy::kSize) {
             // Room for the largest single step, or the two would take turns.
             const uint64_t slack = 64 + wanted_triangles_ / 100;
@@ -175,11 +185,12 @@ void MeshBody::split_one(NodeId node) {
     const NodeId parent = mesh().hierarchy.parent[node];
     if (parent != kNoNode) {
         if (ranks_.queue(record_of(parent)) == NodeQueue::kLeave) stay(record_of(parent));
-        ranks_.dequeue(record_of(parent));
+        ranks_.unlink(record_of(parent));
     }
     const glm::vec3 shown_m = mesh().hierarchy.position[node] + glides_.displacement_m(node);
     drop_glide(node);
     cut_.vsplit(node);
+    ready_ = kNoRecord;
     ++operations_[OperationKind::kVsplit];
     ranks_.unlink(record);
     admit_children(node);
@@ -197,11 +208,12 @@ void MeshBody::merge_one(uint32_t record) {
     const NodeId node = node_of(record);
     if (ranks_.queue(record) != NodeQueue::kLeave) note_pop(record);
     for (NodeId child : mesh().hierarchy.children[record]) {
-        if (!mesh().is_leaf(child)) ranks_.dequeue(record_of(child));
+        if (!mesh().is_leaf(child)) ranks_.unlink(record_of(child));
         drop_glide(child);
     }
     ranks_.unlink(record);
     cut_.ecol(node);
+    ready_ = kNoRecord;
     ++operations_[OperationKind::kEcol];
     ranks_.enqueue(record, NodeQueue::kSplit);  // its evaluation watched for a rise, too
     admit_parent(node);
@@ -234,8 +246,8 @@ Step MeshBody::coarsen(double limit_px) {
     const auto before = static_cast<int64_t>(triangles());
     const BucketQueue& merges = ranks_.queue_at(NodeQueue::kMerge);
     const uint32_t record = merges.head(merges.lowest());
-    const bool is_unseen = ranks_.bucket(record) <= kFlatBucket || pop_px(record) <= kUnseenPop_px;
-    if (is_unseen || !leave(record)) merge_one(record);
+    const bool glides = is_gliding(record) && pop_px(record) > kUnseenPop_px && leave(record);
+    if (!glides) merge_one(record);
     step.steps = 1;
     step.triangle_delta = static_cast<int64_t>(triangles()) - before;
     return step;

@@ -55,6 +55,8 @@ class MeshBody {
     std::vector<NodeId>& strayed() { return strayed_; }
 
   private:
+    static constexpr uint32_t kNoRecord = 0xffffffffu;
+
     NodeId node_of(uint32_t record) const { return mesh().leaf_count() + record; }
     uint32_t record_of(NodeId node) const { return mesh().collapse_of(node); }
     const ProgressiveMesh& mesh() const { return cut_.mesh(); }
@@ -84,6 +86,7 @@ class MeshBody {
     NodeGlides glides_;
     std::vector<NodeId> strayed_, chain_;
     std::vector<uint32_t> back_;
+    uint32_t ready_ = kNoRecord;    ///< its collapse is known to be legal in this cut
     std::vector<View> last_views_;  ///< in the body's frame
     double now_s_ = 0.0;
     bool is_asleep_ = true;

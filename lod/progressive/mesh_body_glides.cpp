@@ -3,23 +3,28 @@
 #include <algorithm>
 
 #include "lod/progressive/mesh_body.h"
-#include "lod/screen_error.h"
+#include "lod/sight_metric.h"
 
 namespace lod {
 namespace {
 
-/// Pixels a displacement costs at a place in view; 0 out of view. The bound of lod/screen_error.h.
-double displacement_px(std::span<const AnchoredEye> eyes, const glm::vec3& place, const glm::vec3& way) {
-    const double length = static_cast<double>(glm::length(way));
-    if (length == 0.0) return 0.0;
-    double worst = 0.0;
-    for (const AnchoredEye& eye : eyes) {
-        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(place) - eye.eye);
-        if (distance_outside_m(eye.metric, centre, length) > 0.0) continue;
-        worst = std::max(worst, screen_error_px(eye.metric, centre, length, length));
+/// Displacements at their places, four side by side.
+struct FourWays {
+    FourBounds bounds;
+
+    void set(int lane, const glm::vec3& place, const glm::vec3& way) {
+        const float length = glm::length(way);
+        bounds.set(lane, {place, length, length});
     }
-    return worst;
-}
+    /// Pixels that the worst of them costs where it is in view. The bound of lod/screen_error.h.
+    double worst_px(std::span<const AnchoredEye> eyes) const {
+        FourSights sight;
+        for (const AnchoredEye& eye : eyes)
+            sight.look(eye.lanes, bounds);
+        const Float4 px = sight.shown_px;
+        return double(std::max({px[0], px[1], px[2], px[3]}));
+    }
+};
 
 }  // namespace
 
@@ -33,12 +38,12 @@ void MeshBody::drop_glide(NodeId node) {
 /// How far the children are shown from their node.
 double MeshBody::pop_px(uint32_t record) const {
     const glm::vec3 place = mesh().hierarchy.position[node_of(record)];
-    double farthest = 0.0;
-    for (NodeId child : mesh().hierarchy.children[record]) {
-        const glm::vec3 shown = mesh().hierarchy.position[child] + glides_.displacement_m(child);
-        farthest = std::max(farthest, displacement_px(ranks_.eyes(), place, shown - place));
+    FourWays ways;
+    for (int child = 0; child < 2; ++child) {
+        const NodeId node = mesh().hierarchy.children[record][static_cast<size_t>(child)];
+        ways.set(child, place, mesh().hierarchy.position[node] + glides_.displacement_m(node) - place);
     }
-    return farthest;
+    return ways.worst_px(ranks_.eyes());
 }
 
 /// They jump to it, or from it. In a plane nobody sees it, and in a cut nothing is a movement.
@@ -104,10 +109,16 @@ void MeshBody::advance_glides() {
 
 void MeshBody::measure_glides() {
     glide_px_ = jump_px_ = 0.0;
-    for (const NodeGlide& glide : glides_.all()) {
-        const glm::vec3 place = mesh().hierarchy.position[glide.node];
-        glide_px_ = std::max(glide_px_, displacement_px(ranks_.eyes(), place, glide.shown_m));
-        jump_px_ = std::max(jump_px_, displacement_px(ranks_.eyes(), place, glide.shown_m - glide.before_m));
+    const std::span<const NodeGlide> glides = glides_.all();
+    for (size_t begin = 0; begin < glides.size(); begin += 4) {
+        FourWays gaps, steps;
+        for (size_t i = begin; i < std::min(begin + 4, glides.size()); ++i) {
+            const glm::vec3 place = mesh().hierarchy.position[glides[i].node];
+            gaps.set(static_cast<int>(i - begin), place, glides[i].shown_m);
+            steps.set(static_cast<int>(i - begin), place, glides[i].shown_m - glides[i].before_m);
+        }
+        glide_px_ = std::max(glide_px_, gaps.worst_px(ranks_.eyes()));
+        jump_px_ = std::max(jump_px_, steps.worst_px(ranks_.eyes()));
     }
 }
 

@@ -22,6 +22,8 @@ MeshFront::MeshFront(Module module, std::vector<ProgressiveMesh> meshes,
     }
     worst_.places.resize(bodies_.size());
     cheapest_.places.resize(bodies_.size());
+    worst_.unasked.reserve(bodies_.size());
+    cheapest_.unasked.reserve(bodies_.size());
 }
 
 void MeshFront::set_pose(uint32_t body, const BodyPose& pose) {
@@ -31,6 +33,7 @@ void MeshFront::set_pose(uint32_t body, const BodyPose& pose) {
 
 void MeshFront::BodyQueue::move(uint32_t body, bool is_queued, Bucket bucket) {
     Place& place = places[body];
+    place.is_asked = true;
     if (place.is_queued && is_queued && place.bucket == bucket) return;
     if (place.is_queued) queue.remove(places, body, place.bucket);
     place.is_queued = is_queued;
@@ -48,12 +51,32 @@ Bucket bucket_of(const BucketScale& scale, double error_px) {
 
 }  // namespace
 
-/// Asks the body for both ends of its queues, which evaluates their heads, and moves it where it belongs.
-void MeshFront::requeue(uint32_t body) {
-    MeshBody& asked = bodies_[body].body;
-    const double refine_px = asked.refine_error_px(), coarsen_px = asked.coarsen_error_px();
-    worst_.move(body, refine_px > 0.0, bucket_of(scale_, refine_px));
-    cheapest_.move(body, std::isfinite(coarsen_px), bucket_of(scale_, coarsen_px));
+void MeshFront::BodyQueue::forget(uint32_t body) {
+    if (!places[body].is_asked) return;
+    places[body].is_asked = false;
+    unasked.push_back(body);
+}
+
+/// The body has changed: it is asked for an end of its queues, which evaluates the heads, when somebody wants to know.
+void MeshFront::forget(uint32_t body) {
+    worst_.forget(body);
+    cheapest_.forget(body);
+}
+
+void MeshFront::ask_worst() {
+    for (uint32_t body : worst_.unasked) {
+        const double error_px = bodies_[body].body.refine_error_px();
+        worst_.move(body, error_px > 0.0, bucket_of(scale_, error_px));
+    }
+    worst_.unasked.clear();
+}
+
+void MeshFront::ask_cheapest() {
+    for (uint32_t body : cheapest_.unasked) {
+        const double error_px = bodies_[body].body.coarsen_error_px();
+        cheapest_.move(body, std::isfinite(error_px), bucket_of(scale_, error_px));
+    }
+    cheapest_.unasked.clear();
 }
 
 void MeshFront::begin_frame(std::span<const View> views, double time_s) {
@@ -68,27 +91,30 @@ void MeshFront::begin_frame(std::span<const View> views, double time_s) {
         const bool was_asleep = entry.body.is_asleep();
         entry.body.begin_frame(views_body_, time_s);
         triangles_ += entry.body.triangles();
-        if (!was_asleep || !entry.body.is_asleep()) requeue(body);
+        if (!was_asleep || !entry.body.is_asleep()) forget(body);
     }
 }
 
 double MeshFront::refine_error_px() {
+    ask_worst();
     if (worst_.queue.is_empty()) return 0.0;
     return bodies_[worst_.queue.head(worst_.queue.highest())].body.refine_error_px();
 }
 
 double MeshFront::coarsen_error_px() {
+    ask_cheapest();
     if (cheapest_.queue.is_empty()) return std::numeric_limits<double>::infinity();
     return bodies_[cheapest_.queue.head(cheapest_.queue.lowest())].body.coarsen_error_px();
 }
 
 Step MeshFront::account(uint32_t body, const Step& step) {
     triangles_ = static_cast<uint64_t>(static_cast<int64_t>(triangles_) + step.triangle_delta);
-    requeue(body);
+    forget(body);
     return step;
 }
 
 Step MeshFront::refine() {
+    ask_worst();
     if (worst_.queue.is_empty()) return {};
     const uint32_t body = worst_.queue.head(worst_.queue.highest());
     return account(body, bodies_[body].body.refine());

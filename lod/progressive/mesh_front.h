@@ -71,16 +71,20 @@ class MeshFront final : public Front {
         BucketLink link;
         Bucket bucket = kHiddenBucket;
         bool is_queued = false;
+        bool is_asked = true;
     };
     struct BodyQueue {
         BucketQueue queue;
         std::vector<Place> places;
+        std::vector<uint32_t>
+            unasked;  ///< bodies that changed since they were last asked; a test of emptiness a query
+        void forget(uint32_t body);
         void move(uint32_t body, bool is_queued, Bucket bucket);
     };
 
-    void requeue(uint32_t body);
-    bool requeue_worst();
-    bool requeue_cheapest();
+    void forget(uint32_t body);
+    void ask_worst();
+    void ask_cheapest();
     Step account(uint32_t body, const Step& step);
     void write(DrawList& out);
 

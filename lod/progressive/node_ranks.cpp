@@ -35,7 +35,7 @@ NodeRanks::NodeRanks(const ProgressiveMesh& mesh, const RankOptions& options)
 }
 
 /// Always four lanes: one too many costs less than a branch that nobody can foresee.
-FourEvaluations NodeRanks::evaluate_some(std::span<const uint32_t> some, bool watches_fall) const {
+FourEvaluations NodeRanks::evaluate_some(std::span<const uint32_t> some, Int4 watches_fall) const {
     FourBounds bounds;
     FourCones cones;
     for (size_t lane = 0; lane < 4; ++lane) {
@@ -43,11 +43,10 @@ FourEvaluations NodeRanks::evaluate_some(std::span<const uint32_t> some, bool wa
         bounds.set(static_cast<int>(lane), {bound.centre, bound.radius_m, bound.error_m});
         cones.set(static_cast<int>(lane), bound);
     }
-    const Int4 watches = Int4{} - (watches_fall ? 1 : 0);
-    if (silhouette_weight_ == 1.0f) return evaluate(bounds, eyes(), scale_, watches);
+    if (silhouette_weight_ == 1.0f) return evaluate(bounds, eyes(), scale_, watches_fall);
     const FourSilhouettes edge = silhouettes(bounds, cones, eyes());
     bounds.error_m = edge.is_silhouette ? bounds.error_m * silhouette_weight_ : bounds.error_m;
-    FourEvaluations now = evaluate(bounds, eyes(), scale_, watches);
+    FourEvaluations now = evaluate(bounds, eyes(), scale_, watches_fall);
     const Int4 is_fixed =
         edge.is_silhouette | (bounds.error_m == 0.0f) | (now.bucket == int32_t(kHiddenBucket));
     now.guard_m = is_fixed ? now.guard_m : min(now.guard_m, edge.guard_m);
@@ -62,7 +61,7 @@ void NodeRanks::set_alarm(uint32_t record, float walk_m, float turn_rad) {
     earliest_rad_[block] = std::min(earliest_rad_[block], turn_rad);
 }
 
-void NodeRanks::rank(std::span<const uint32_t> some, bool watches_fall) {
+void NodeRanks::take(std::span<const uint32_t> some, Int4 watches_fall) {
     evaluations_ += some.size();
     const FourEvaluations now = evaluate_some(some, watches_fall);
     Float4 walk_m, turn_rad;
@@ -75,13 +74,36 @@ void NodeRanks::rank(std::span<const uint32_t> some, bool watches_fall) {
     }
 }
 
-void NodeRanks::refresh(uint32_t record) {
-    const Bucket before = bucket(record);
-    const NodeQueue where = queue(record);
-    rank({&record, 1}, where != NodeQueue::kSplit);
-    if (bucket(record) == before || where == NodeQueue::kBlocked) return;
-    queue_at(where).remove(ranks_, record, before);
-    queue_at(where).push(ranks_, record, bucket(record));
+void NodeRanks::rank(std::span<const uint32_t> some, bool watches_fall) {
+    if (std::all_of(some.begin(), some.end(), [this](uint32_t record) { return holds(record); })) return;
+    take(some, Int4{} - (watches_fall ? 1 : 0));
+}
+
+void NodeRanks::refresh(std::span<const uint32_t> some) {
+    std::array<Bucket, 4> before{};
+    Int4 watches_fall{};
+    for (size_t lane = 0; lane < some.size(); ++lane) {
+        before[lane] = bucket(some[lane]);
+        watches_fall[lane] = queue(some[lane]) != NodeQueue::kSplit ? -1 : 0;
+    }
+    if (!some.empty()) take(some, watches_fall);
+    for (size_t lane = 0; lane < some.size(); ++lane) {
+        const uint32_t record = some[lane];
+        if (bucket(record) == before[lane] || queue(record) == NodeQueue::kBlocked) continue;
+        queue_at(queue(record)).remove(ranks_, record, before[lane]);
+        queue_at(queue(record)).push(ranks_, record, bucket(record));
+    }
+}
+
+void NodeRanks::refresh_head(NodeQueue queue, Bucket bucket) {
+    std::array<uint32_t, 4> some{};
+    size_t count = 0;
+    uint32_t record = queue_at(queue).head(bucket);
+    do {
+        some[count++] = record;
+        record = ranks_[record].link.next;
+    } while (count < some.size() && record != kNone && !is_fresh(record));
+    refresh({some.data(), count});
 }
 
 void NodeRanks::enqueue(uint32_t record, NodeQueue queue) {
@@ -107,11 +129,6 @@ void NodeRanks::unlink(uint32_t record) {
     }
     ranks_[record].queue = static_cast<uint8_t>(NodeQueue::kNone);
     --queued_count_;
-}
-
-void NodeRanks::dequeue(uint32_t record) {
-    unlink(record);
-    wake_m_[record] = wake_rad_[record] = kNever;
 }
 
 void NodeRanks::block(uint32_t record, uint32_t by) {
@@ -149,10 +166,12 @@ void NodeRanks::collect_block(uint32_t block) {
     const uint32_t end = std::min(static_cast<uint32_t>(ranks_.size()), (block + 1) * kBlock);
     earliest_m_[block] = earliest_rad_[block] = kNever;
     for (uint32_t record = block * kBlock; record < end; ++record) {
-        if (wake_m_[record] < walked || wake_rad_[record] < turned) {
+        if (wake_m_[record] >= walked && wake_rad_[record] >= turned) {
+            set_alarm(record, wake_m_[record], wake_rad_[record]);
+        } else if (queue(record) != NodeQueue::kNone) {
             due_.push_back(record);
         } else {
-            set_alarm(record, wake_m_[record], wake_rad_[record]);
+            wake_m_[record] = wake_rad_[record] = kNever;
         }
     }
 }
@@ -178,7 +197,7 @@ std::string NodeRanks::validate() const {
     for (uint32_t record = 0; record < ranks_.size(); ++record) {
         if (queue(record) == NodeQueue::kNone) continue;
         const std::string name = "node " + std::to_string(mesh_->leaf_count() + record);
-        const FourEvaluations now = evaluate_some({&record, 1}, false);
+        const FourEvaluations now = evaluate_some({&record, 1}, Int4{});
         if (!eyes().empty() && now.error_px[0] > scale_.upper_px(bucket(record)))
             return name + " is worse than its bucket says";
         const float earliest = earliest_m_[record / kBlock];

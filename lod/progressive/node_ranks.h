@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,18 +47,18 @@ class NodeRanks {
     const BucketQueue& queue_at(NodeQueue queue) const { return queues_[static_cast<size_t>(queue)]; }
     uint32_t queued_count() const { return queued_count_; }
 
-    /// Evaluates one to four records; they must be out of their queues.
+    /// Evaluates one to four records that are out of their queues, unless all were and it still holds.
     void rank(std::span<const uint32_t> some, bool watches_fall);
-    /// Evaluates a queued record again and moves it to its bucket.
-    void refresh(uint32_t record);
+    /// Evaluates none to four queued records again and moves them to their buckets.
+    void refresh(std::span<const uint32_t> some);
+    /// Refreshes the head of a bucket, and up to three behind it at the same cost.
+    void refresh_head(NodeQueue queue, Bucket bucket);
 
     void enqueue(uint32_t record, NodeQueue queue);
     /// Without an evaluation yet: it is due with the next frame.
     void wake(uint32_t record) { set_alarm(record, -1.0f, -1.0f); }
-    /// Out of its queue, awake at its time.
+    /// Out of its queue. What it was evaluated to holds until its alarm.
     void unlink(uint32_t record);
-    /// Out of its queue and asleep for good.
-    void dequeue(uint32_t record);
 
     /// From kMerge to kBlocked until the collapse `by` is done.
     void block(uint32_t record, uint32_t by);
@@ -80,7 +81,12 @@ class NodeRanks {
     static_assert(sizeof(Rank) == 12);
     static constexpr uint32_t kBlock = 64;
 
-    FourEvaluations evaluate_some(std::span<const uint32_t> some, bool watches_fall) const;
+    FourEvaluations evaluate_some(std::span<const uint32_t> some, Int4 watches_fall) const;
+    void take(std::span<const uint32_t> some, Int4 watches_fall);
+    bool holds(uint32_t record) const {
+        return wake_m_[record] < std::numeric_limits<float>::infinity() &&
+               wake_m_[record] >= odometer_.walked_m() && wake_rad_[record] >= odometer_.turned_rad();
+    }
     void set_alarm(uint32_t record, float walk_m, float turn_rad);
     void rewind_alarms(bool holds);
     void collect_due();
