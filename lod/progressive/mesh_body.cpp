@@ -47,7 +47,8 @@ void MeshBody::settle() {
         ranks_.enqueue(record, NodeQueue::kMerge);
     }
     leaving_triangles_ = 0;
-    glide_px_ = jump_px_ = 0.0;
+    glide_px_ = 0.0;
+    forget_pops();
 }
 
 /// Whether an eye is somewhere else altogether.

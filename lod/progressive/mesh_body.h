@@ -8,6 +8,7 @@
 // it is seen again it goes on with the cut it had.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "lod/progressive/node_glides.h"
 #include "lod/progressive/node_ranks.h"
 #include "lod/progressive/size_policy.h"
+#include "lod/progressive/ways.h"
 
 namespace lod {
 
@@ -41,7 +43,7 @@ class MeshBody {
     Step refine();
     Step coarsen(double limit_px);
     double error_px() const;
-    double jump_px() const { return jump_px_; }
+    double jump_px() const { return std::max(jump_px_, waiting_pops_.worst_px(ranks_.eyes())); }
     /// Of the cut, without those that go when what glides away has gone; 0 while asleep.
     uint64_t triangles() const { return is_asleep_ ? 0 : cut_.triangle_count() - leaving_triangles_; }
     const OperationCounts& operations() const { return operations_; }
@@ -69,8 +71,11 @@ class MeshBody {
     bool is_gliding(uint32_t record) const {
         return options_.glide_s > 0.0 && !is_cut_ && ranks_.bucket(record) > kFlatBucket;
     }
+    float way_m(uint32_t record) const;
     double pop_px(uint32_t record) const;
     void note_pop(uint32_t record);
+    void take_pops();
+    void forget_pops();
     bool leave(uint32_t record);
     void stay(uint32_t record);
     bool has_left(uint32_t record) const;
@@ -94,6 +99,8 @@ class MeshBody {
     uint64_t leaving_triangles_ = 0;
     uint64_t wanted_triangles_ = 0;  ///< by the size policy
     double glide_px_ = 0.0, jump_px_ = 0.0;
+    FourWays waiting_pops_;  ///< not in jump_px_ yet
+    int waiting_count_ = 0;
     OperationCounts operations_;
 };
 

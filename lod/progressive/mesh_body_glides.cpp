@@ -1,33 +1,11 @@
 // Gliding: split vertices glide home, superfluous ones glide to their node before they are collapsed, and what still
 // jumps is told.
 #include <algorithm>
+#include <cmath>
 
 #include "lod/progressive/mesh_body.h"
-#include "lod/sight_metric.h"
 
 namespace lod {
-namespace {
-
-/// Displacements at their places, four side by side.
-struct FourWays {
-    FourBounds bounds;
-
-    void set(int lane, const glm::vec3& place, const glm::vec3& way) {
-        const float length = glm::length(way);
-        bounds.set(lane, {place, length, length});
-    }
-    /// Pixels that the worst of them costs where it is in view. The bound of lod/screen_error.h.
-    double worst_px(std::span<const AnchoredEye> eyes) const {
-        FourSights sight;
-        for (const AnchoredEye& eye : eyes)
-            sight.look(eye.lanes, bounds);
-        const Float4 px = sight.shown_px;
-        return double(std::max({px[0], px[1], px[2], px[3]}));
-    }
-};
-
-}  // namespace
-
 void MeshBody::drop_glide(NodeId node) {
     const NodeGlide* glide = glides_.find(node);
     if (glide == nullptr) return;
@@ -35,21 +13,39 @@ void MeshBody::drop_glide(NodeId node) {
     glides_.drop(node);
 }
 
-/// How far the children are shown from their node.
+/// How far the children are shown from their node, the farther one.
+float MeshBody::way_m(uint32_t record) const {
+    const std::vector<glm::vec3>& position = mesh().hierarchy.position;
+    const auto [a, b] = mesh().hierarchy.children[record];
+    const glm::vec3 place = position[node_of(record)], to_a = position[a] + glides_.displacement_m(a) - place,
+                    to_b = position[b] + glides_.displacement_m(b) - place;
+    return std::sqrt(std::max(glm::dot(to_a, to_a), glm::dot(to_b, to_b)));
+}
+
 double MeshBody::pop_px(uint32_t record) const {
-    const glm::vec3 place = mesh().hierarchy.position[node_of(record)];
     FourWays ways;
-    for (int child = 0; child < 2; ++child) {
-        const NodeId node = mesh().hierarchy.children[record][static_cast<size_t>(child)];
-        ways.set(child, place, mesh().hierarchy.position[node] + glides_.displacement_m(node) - place);
-    }
+    ways.set(0, mesh().hierarchy.position[node_of(record)], way_m(record));
     return ways.worst_px(ranks_.eyes());
 }
 
 /// They jump to it, or from it. In a plane nobody sees it, and in a cut nothing is a movement.
 void MeshBody::note_pop(uint32_t record) {
     if (is_cut_ || ranks_.bucket(record) <= kFlatBucket) return;
-    jump_px_ = std::max(jump_px_, pop_px(record));
+    waiting_pops_.set(waiting_count_++, mesh().hierarchy.position[node_of(record)], way_m(record));
+    if (waiting_count_ == 4) take_pops();
+}
+
+void MeshBody::forget_pops() {
+    jump_px_ = 0.0;
+    waiting_pops_ = {};
+    waiting_count_ = 0;
+}
+
+/// Takes those that waited to be looked at four at a time.
+void MeshBody::take_pops() {
+    const double jump_px = this->jump_px();
+    forget_pops();
+    jump_px_ = jump_px;
 }
 
 /// Sends both children to their node; false when they must jump, or need not move.
@@ -108,14 +104,16 @@ void MeshBody::advance_glides() {
 }
 
 void MeshBody::measure_glides() {
-    glide_px_ = jump_px_ = 0.0;
+    glide_px_ = 0.0;
+    forget_pops();
     const std::span<const NodeGlide> glides = glides_.all();
     for (size_t begin = 0; begin < glides.size(); begin += 4) {
         FourWays gaps, steps;
         for (size_t i = begin; i < std::min(begin + 4, glides.size()); ++i) {
             const glm::vec3 place = mesh().hierarchy.position[glides[i].node];
-            gaps.set(static_cast<int>(i - begin), place, glides[i].shown_m);
-            steps.set(static_cast<int>(i - begin), place, glides[i].shown_m - glides[i].before_m);
+            gaps.set(static_cast<int>(i - begin), place, glm::length(glides[i].shown_m));
+            steps.set(static_cast<int>(i - begin), place,
+                      glm::length(glides[i].shown_m - glides[i].before_m));
         }
         glide_px_ = std::max(glide_px_, gaps.worst_px(ranks_.eyes()));
         jump_px_ = std::max(jump_px_, steps.worst_px(ranks_.eyes()));

@@ -1,70 +1,88 @@
 #include "lod/progressive/mesh_cut.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "lod/base/check.h"
+#include "lod/base/float4.h"
 #include "lod/base/hash.h"
 
 namespace lod {
 
 MeshCut::MeshCut(const ProgressiveMesh& mesh)
-    : mesh_(&mesh), triangle_flags_(mesh.triangle_count(), 0), is_active_(mesh.hierarchy.node_count(), 0) {
-    corners_.reserve(3 * size_t{mesh.triangle_count()});
-    vertices_.reserve(3 * size_t{mesh.triangle_count()});
+    : mesh_(&mesh),
+      corners_(mesh.triangle_count()),
+      parents_(mesh.triangle_count()),
+      vertices_(mesh.last_vertices),
+      is_touched_(mesh.triangle_count(), 0),
+      is_active_(mesh.hierarchy.node_count(), 0) {
+    CHECK(mesh.hierarchy.node_count() < kNoParent);
     touched_.reserve(mesh.triangle_count());
     for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-        corners_.insert(corners_.end(), mesh.last_corners[triangle].begin(),
-                        mesh.last_corners[triangle].end());
-        vertices_.insert(vertices_.end(), mesh.last_vertices[triangle].begin(),
-                         mesh.last_vertices[triangle].end());
-        if (mesh.remover[triangle] != kNoNode) continue;
-        triangle_flags_[triangle] = kDrawn;
-        touch(triangle);
-        ++drawn_count_;
+        std::copy_n(mesh.last_corners[triangle].begin(), 3, corners_[triangle].begin());
+        if (mesh.remover[triangle] != kNoNode) {
+            hide(triangle);
+        } else {
+            draw(triangle);
+            touch(triangle);
+        }
     }
+    drawn_count_ = static_cast<uint32_t>(touched_.size());
     for (NodeId root : mesh.roots)
         is_active_[root] = 1;
 }
 
-NodeId MeshCut::largest_neighbour(NodeId node) const {
-    NodeId largest = 0;
-    for (CornerId corner : mesh_->star(node)) {
-        if (!is_drawn(corner / 3)) continue;
-        largest = std::max({largest, corners_[next_corner(corner)], corners_[previous_corner(corner)]});
-    }
-    return largest;
+void MeshCut::draw(uint32_t triangle) {
+    const Four& corners = corners_[triangle];
+    parents_[triangle] = {parent_of(corners[0]), parent_of(corners[1]), parent_of(corners[2]), kNoParent};
+    corners_[triangle][3] = 0;
 }
 
-NodeId MeshCut::oldest_parent(NodeId node) const {
-    const std::vector<NodeId>& parent = mesh_->hierarchy.parent;
-    NodeId oldest = kNoNode;
-    for (CornerId corner : mesh_->star(node)) {
-        if (!is_drawn(corner / 3)) continue;
-        oldest = std::min(
-            {oldest, parent[corners_[next_corner(corner)]], parent[corners_[previous_corner(corner)]]});
-    }
-    return oldest;
+void MeshCut::hide(uint32_t triangle) {
+    parents_[triangle].fill(kNoParent);
+    corners_[triangle][3] = 1;
 }
 
 NodeId MeshCut::split_blocker(NodeId node) const {
-    NodeId largest = node;
+    Int4 largest = Int4{} + static_cast<int32_t>(node);
+    largest[3] = 0;
     for (CornerId corner : mesh_->star(node)) {
-        if (is_drawn(corner / 3)) {
-            largest = std::max({largest, corners_[next_corner(corner)], corners_[previous_corner(corner)]});
+        const Int4 corners = std::bit_cast<Int4>(corners_[corner / 3]);
+        largest = corners > largest ? corners : largest;
+    }
+    if (largest[3] != 0) return split_blocker_of_torn(node);
+    const auto youngest = static_cast<NodeId>(std::max({largest[0], largest[1], largest[2]}));
+    return youngest == node ? kNoNode : youngest;
+}
+
+/// Where triangles of the star have been collapsed: whoever took them away counts for them.
+NodeId MeshCut::split_blocker_of_torn(NodeId node) const {
+    NodeId youngest = node;
+    for (CornerId corner : mesh_->star(node)) {
+        const uint32_t triangle = corner / 3;
+        if (is_drawn(triangle)) {
+            const Four& corners = corners_[triangle];
+            youngest = std::max({youngest, corners[0], corners[1], corners[2]});
             continue;
         }
-        NodeId remover = mesh_->remover[corner / 3];
+        NodeId remover = mesh_->remover[triangle];
         while (!is_active(remover))
             remover = mesh_->hierarchy.parent[remover];
-        largest = std::max(largest, remover);
+        youngest = std::max(youngest, remover);
     }
-    return largest == node ? kNoNode : largest;
+    return youngest == node ? kNoNode : youngest;
 }
 
 NodeId MeshCut::collapse_blocker(NodeId node) const {
-    const auto& children = mesh_->hierarchy.children[mesh_->collapse_of(node)];
-    const NodeId oldest = std::min(oldest_parent(children[0]), oldest_parent(children[1]));
-    return oldest < node ? oldest : kNoNode;
+    Int4 oldest = Int4{} + static_cast<int32_t>(node);  // the parent of both children themselves
+    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
+        for (CornerId corner : mesh_->star(child)) {
+            const Int4 parents = std::bit_cast<Int4>(parents_[corner / 3]);
+            oldest = parents < oldest ? parents : oldest;
+        }
+    }
+    const auto first = static_cast<NodeId>(std::min({oldest[0], oldest[1], oldest[2]}));
+    return first == node ? kNoNode : first;
 }
 
 void MeshCut::vsplit(NodeId node) {
@@ -74,16 +92,13 @@ void MeshCut::vsplit(NodeId node) {
     for (uint32_t child = 0; child < 2; ++child) {
         const std::span<const CornerId> kept = mesh_->kept(collapse, child);
         const std::span<const std::array<VertexId, 2>> shown = mesh_->kept_vertices(collapse, child);
-        for (size_t i = 0; i < kept.size(); ++i) {
-            corners_[kept[i]] = children[child];
-            vertices_[kept[i]] = shown[i][0];
-            touch(kept[i] / 3);
-        }
+        for (size_t i = 0; i < kept.size(); ++i)
+            show(kept[i], children[child], node, shown[i][0]);
         is_active_[children[child]] = 1;
     }
     const std::span<const uint32_t> removed = mesh_->removed(collapse);
     for (uint32_t triangle : removed) {
-        triangle_flags_[triangle] |= kDrawn;
+        draw(triangle);
         touch(triangle);
     }
     is_active_[node] = 0;
@@ -95,14 +110,12 @@ void MeshCut::ecol(NodeId node) {
     DCHECK(are_children_active(node) && collapse_blocker(node) == kNoNode);
     const uint32_t collapse = mesh_->collapse_of(node);
     const VertexHierarchy& h = mesh_->hierarchy;
-    for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i) {
-        corners_[h.kept[i]] = node;
-        vertices_[h.kept[i]] = h.kept_vertex[i][1];
-        touch(h.kept[i] / 3);
-    }
+    const NodeId parent = parent_of(node);
+    for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i)
+        show(h.kept[i], node, parent, h.kept_vertex[i][1]);
     const std::span<const uint32_t> removed = mesh_->removed(collapse);
     for (uint32_t triangle : removed) {
-        triangle_flags_[triangle] = static_cast<uint8_t>(triangle_flags_[triangle] & ~kDrawn);
+        hide(triangle);
         touch(triangle);
     }
     for (NodeId child : h.children[collapse])
@@ -114,7 +127,7 @@ void MeshCut::ecol(NodeId node) {
 
 void MeshCut::forget_touched() {
     for (uint32_t triangle : touched_)
-        triangle_flags_[triangle] = static_cast<uint8_t>(triangle_flags_[triangle] & ~kTouched);
+        is_touched_[triangle] = 0;
     touched_.clear();
 }
 
@@ -141,6 +154,9 @@ std::string MeshCut::validate() const {
         ++drawn;
         const auto at = corners(t);
         if (at[0] != a || at[1] != b || at[2] != c) return name + " has a wrong corner";
+        for (size_t k = 0; k < 3; ++k) {
+            if (parents_[t][k] != parent_of(at[k])) return name + " has a wrong parent";
+        }
         for (size_t i = 0; i < 3; ++i) {
             if (h.vertex_node[vertices(t)[i]] != at[i]) return name + " shows a vertex of another node";
         }

@@ -12,6 +12,7 @@
 // ask; it stands for its remover, so M is never too small and a split never meets a star that the build did not see.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,23 +30,18 @@ class MeshCut {
 
     const ProgressiveMesh& mesh() const { return *mesh_; }
     bool is_active(NodeId node) const { return is_active_[node] != 0; }
-    bool is_drawn(uint32_t triangle) const { return (triangle_flags_[triangle] & kDrawn) != 0; }
+    bool is_drawn(uint32_t triangle) const { return corners_[triangle][3] == 0; }
     /// Corners of a drawn triangle.
     std::span<const NodeId, 3> corners(uint32_t triangle) const {
-        return std::span<const NodeId, 3>(corners_.data() + 3 * size_t{triangle}, 3);
+        return std::span<const NodeId, 3>(corners_[triangle].data(), 3);
     }
     /// What those corners show.
     std::span<const VertexId, 3> vertices(uint32_t triangle) const {
-        return std::span<const VertexId, 3>(vertices_.data() + 3 * size_t{triangle}, 3);
+        return std::span<const VertexId, 3>(vertices_[triangle]);
     }
     uint32_t triangle_count() const { return drawn_count_; }
     /// Equal cuts have equal hashes.
     uint64_t hash() const { return hash_; }
-
-    /// M: the largest id among the neighbours of an active node; 0 without any.
-    NodeId largest_neighbour(NodeId node) const;
-    /// m: the smallest id among the parents of an active node's neighbours; kNoNode when none has one.
-    NodeId oldest_parent(NodeId node) const;
 
     /// The active node that must be split before `node`; kNoNode: its split is legal now.
     /// @param node  active, no leaf
@@ -70,18 +66,33 @@ class MeshCut {
     std::string validate() const;
 
   private:
-    static constexpr uint8_t kDrawn = 1, kTouched = 2;
+    static constexpr NodeId kNoParent = 0x7fffffffu;  ///< younger than any node, also as a signed number
+    using Four = std::array<NodeId, 4>;
 
+    NodeId parent_of(NodeId node) const { return std::min(mesh_->hierarchy.parent[node], kNoParent); }
+
+    void show(CornerId corner, NodeId node, NodeId parent, VertexId vertex) {
+        const uint32_t triangle = corner / 3;
+        corners_[triangle][corner % 3] = node;
+        parents_[triangle][corner % 3] = parent;
+        vertices_[triangle][corner % 3] = vertex;
+        touch(triangle);
+    }
+    NodeId split_blocker_of_torn(NodeId node) const;
+    void draw(uint32_t triangle);
+    void hide(uint32_t triangle);
     void touch(uint32_t triangle) {
-        if (triangle_flags_[triangle] & kTouched) return;
-        triangle_flags_[triangle] |= kTouched;
+        if (is_touched_[triangle]) return;
+        is_touched_[triangle] = 1;
         touched_.push_back(triangle);
     }
 
     const ProgressiveMesh* mesh_;
-    std::vector<NodeId> corners_;     ///< [3 * triangles]; of one not drawn: when it last was
-    std::vector<VertexId> vertices_;  ///< likewise
-    std::vector<uint8_t> triangle_flags_, is_active_;
+    // [triangles]; a star is read four numbers at a time, without asking which triangles are drawn.
+    std::vector<Four> corners_;  ///< of one not drawn: when it last was; the fourth: whether it is not drawn
+    std::vector<Four> parents_;  ///< of the corners; all kNoParent when not drawn; the fourth: kNoParent
+    std::vector<std::array<VertexId, 3>> vertices_;
+    std::vector<uint8_t> is_touched_, is_active_;
     std::vector<uint32_t> touched_;
     uint32_t drawn_count_ = 0;
     uint64_t hash_ = 0;
