@@ -226,7 +226,9 @@ Step MeshBody::refine() {
     if (refine_error_px() <= 0.0) return step;
     const auto before = static_cast<int64_t>(triangles());
     const BucketQueue& splits = ranks_.queue_at(NodeQueue::kSplit);
-    chain_.assign(1, node_of(splits.head(splits.highest())));
+    const uint32_t head = splits.head(splits.highest()), next = ranks_.behind(head);
+    if (next != BucketQueue::kNone) cut_.expect_vsplit(node_of(next));
+    chain_.assign(1, node_of(head));
     while (!chain_.empty()) {
         const NodeId node = chain_.back(), blocker = cut_.split_blocker(node);
         if (blocker != kNoNode) {
@@ -246,7 +248,8 @@ Step MeshBody::coarsen(double limit_px) {
     if (coarsen_error_px() > limit_px) return step;
     const auto before = static_cast<int64_t>(triangles());
     const BucketQueue& merges = ranks_.queue_at(NodeQueue::kMerge);
-    const uint32_t record = merges.head(merges.lowest());
+    const uint32_t record = merges.head(merges.lowest()), next = ranks_.behind(record);
+    if (next != BucketQueue::kNone) cut_.expect_ecol(node_of(next));
     const bool glides = is_gliding(record) && pop_px(record) > kUnseenPop_px && leave(record);
     if (!glides) merge_one(record);
     step.steps = 1;

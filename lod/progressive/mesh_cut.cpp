@@ -85,6 +85,27 @@ NodeId MeshCut::collapse_blocker(NodeId node) const {
     return first == node ? kNoNode : first;
 }
 
+void MeshCut::expect_vsplit(NodeId node) const {
+    for (CornerId corner : mesh_->star(node)) {
+        __builtin_prefetch(&corners_[corner / 3], 1);
+        __builtin_prefetch(&parents_[corner / 3], 1);
+    }
+    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
+        if (!mesh_->is_leaf(child)) __builtin_prefetch(&mesh_->bounds[mesh_->collapse_of(child)]);
+        __builtin_prefetch(&mesh_->hierarchy.position[child]);
+    }
+}
+
+void MeshCut::expect_ecol(NodeId node) const {
+    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
+        for (CornerId corner : mesh_->star(child)) {
+            __builtin_prefetch(&parents_[corner / 3], 1);
+            __builtin_prefetch(&corners_[corner / 3], 1);
+        }
+        __builtin_prefetch(&mesh_->hierarchy.position[child]);
+    }
+}
+
 void MeshCut::vsplit(NodeId node) {
     DCHECK(is_active(node) && split_blocker(node) == kNoNode);
     const uint32_t collapse = mesh_->collapse_of(node);

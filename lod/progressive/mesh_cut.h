@@ -54,6 +54,10 @@ class MeshCut {
         return is_active(children[0]) && is_active(children[1]);
     }
 
+    /// Calls up the memory that an operation on the node will read soon. Changes nothing.
+    void expect_vsplit(NodeId node) const;
+    void expect_ecol(NodeId node) const;
+
     /// The operations; DCHECK that they are legal. Never allocate.
     void vsplit(NodeId node);
     void ecol(NodeId node);

@@ -39,6 +39,8 @@ class NodeRanks {
 
     Bucket bucket(uint32_t record) const { return ranks_[record].bucket; }
     NodeQueue queue(uint32_t record) const { return static_cast<NodeQueue>(ranks_[record].queue); }
+    /// The one behind it in its bucket; BucketQueue::kNone: none.
+    uint32_t behind(uint32_t record) const { return ranks_[record].link.next; }
     /// Evaluated in this very frame.
     bool is_fresh(uint32_t record) const { return ranks_[record].stamp == stamp_; }
     const BucketScale& scale() const { return scale_; }
