@@ -1,7 +1,8 @@
 // Speed of the front of progressive meshes on one .hpm file: operations a second, and an orbit frame by frame.
 //
-// Usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES]
-// Prints one line of JSON. Rates are by processor time, frames by the clock.
+// Usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES] [SAME.spm]
+// With a file of OpenMesh-Analyzer of the same model, OpenMesh flies the same orbit, frame by frame in turn with ours.
+// Prints one line of JSON. Rates and adaptation are by processor time, emission by the clock.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -18,6 +19,7 @@
 #include "lod/progressive/mesh_front.h"
 #include "lod/progressive/transform_hierarchy.h"
 #include "lod/scheduler.h"
+#include "tests/bench/openmesh_vdpm.h"
 
 namespace {
 
@@ -132,7 +134,40 @@ nlohmann::json operations_of_a_front(lod::MeshFront& front, const Orbit& orbit) 
             {"ecol_per_s", rate(lod::OperationKind::kEcol, spent_s[1])}};
 }
 
-nlohmann::json fly(lod::MeshFront& front, const Orbit& orbit, double tolerance_px, int frames) {
+/// OpenMesh beside it, and what it took.
+struct Companion {
+    bench::OpenMeshVdpm vdpm;
+    glm::dmat4 file_from_model{1.0};
+    std::vector<double> adapt_ms, clean_ms;
+    uint64_t triangles = 0, operations_before = 0;
+
+    void fly(const lod::View& view, double tolerance_px, bool counts) {
+        lod::View in_file = view;
+        in_file.eye_world = glm::dvec3(file_from_model * glm::dvec4(view.eye_world, 1.0));
+        in_file.eye_from_world = view.eye_from_world * glm::transpose(glm::dmat3(file_from_model));
+        const double begin_s = processor_s();
+        vdpm.adapt(in_file, tolerance_px);
+        const double adapted_s = processor_s();
+        vdpm.clean();
+        if (!counts) {
+            operations_before = vdpm.operations();
+            return;
+        }
+        adapt_ms.push_back(1e3 * (adapted_s - begin_s));
+        clean_ms.push_back(1e3 * (processor_s() - adapted_s));
+        triangles += vdpm.triangles();
+    }
+    nlohmann::json report(int frames) const {
+        return {{"triangles", double(triangles) / frames},
+                {"operations", double(vdpm.operations() - operations_before) / frames},
+                {"adapt_ms_p50", rank(adapt_ms, 0.5)},
+                {"adapt_ms_p99", rank(adapt_ms, 0.99)},
+                {"clean_ms_p50", rank(clean_ms, 0.5)}};
+    }
+};
+
+nlohmann::json fly(lod::MeshFront& front, const Orbit& orbit, double tolerance_px, int frames,
+                   Companion* beside) {
     lod::Front* fronts[] = {&front};
     lod::Budget budget;
     budget.tolerance_px = tolerance_px;
@@ -143,16 +178,18 @@ nlohmann::json fly(lod::MeshFront& front, const Orbit& orbit, double tolerance_p
         const lod::View view = view_at(orbit, 0.002 * frame);
         const lod::OperationCounts before = front.operations();
         const uint64_t evaluated = front.evaluations();
-        const auto begin = Clock::now();
+        const double begin_s = processor_s();
         front.begin_frame({&view, 1}, frame / 60.0);
         lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
-        const double adapted_s = seconds_since(begin);
+        const double adapted_s = processor_s() - begin_s;
         list.clear();
         const auto emitting = Clock::now();
         front.emit(view, list);
+        const double emitted_ms = 1e3 * seconds_since(emitting);
+        if (beside != nullptr) beside->fly(view, tolerance_px, frame > 0);
         if (frame == 0) continue;
         adapt_ms.push_back(1e3 * adapted_s);
-        emit_ms.push_back(1e3 * seconds_since(emitting));
+        emit_ms.push_back(emitted_ms);
         const lod::OperationCounts now = front.operations();
         operations += now[lod::OperationKind::kVsplit] - before[lod::OperationKind::kVsplit] +
                       now[lod::OperationKind::kEcol] - before[lod::OperationKind::kEcol];
@@ -173,7 +210,7 @@ nlohmann::json fly(lod::MeshFront& front, const Orbit& orbit, double tolerance_p
 
 int main(int argc, char** argv) {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES]\n");
+        std::fprintf(stderr, "usage: mesh_flight MODEL.hpm [TOLERANCE_PX] [FRAMES] [SAME.spm]\n");
         return 2;
     }
     const double tolerance_px = argc > 2 ? std::atof(argv[2]) : 0.5;
@@ -182,6 +219,13 @@ int main(int argc, char** argv) {
     if (!bytes) return std::fprintf(stderr, "%s\n", bytes.message().c_str()), 1;
     const auto model = lod::decode_hpm(*bytes);
     if (!model) return std::fprintf(stderr, "%s %s\n", argv[1], model.message().c_str()), 1;
+
+    Companion beside;
+    beside.file_from_model = model->file_from_model;
+    const lod::Result<std::vector<uint8_t>> spm =
+        argc > 4 ? data::read_file(argv[4], size_t{4} << 30) : lod::Error{"none"};
+    if (argc > 4 && (!spm || !beside.vdpm.read(std::as_bytes(std::span(*spm)))))
+        return std::fprintf(stderr, "%s: no progressive mesh of OpenMesh\n", argv[4]), 1;
 
     std::vector<lod::ProgressiveMesh> meshes = meshes_of(*model);
     nlohmann::json report;
@@ -202,7 +246,8 @@ int main(int argc, char** argv) {
     lod::MeshFront front(lod::Module::kInstruments, std::move(meshes), placements, options);
     front.place(front.pool_need());
     report["front"] = operations_of_a_front(front, orbit);
-    report["orbit"] = fly(front, orbit, tolerance_px, frames);
+    report["orbit"] = fly(front, orbit, tolerance_px, frames, spm ? &beside : nullptr);
+    if (spm) report["openmesh"] = beside.report(frames);
     std::printf("%s\n", report.dump().c_str());
     return 0;
 }
