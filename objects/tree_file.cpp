@@ -21,6 +21,11 @@ void for_each_part(Tree& tree, const Values& value, const Arrays& array) {
 
 std::vector<unsigned char> encode_tree(const ClusterTree& tree) {
     std::vector<unsigned char> bytes = lod::begin_sealed();
+    size_t size_bytes = bytes.size() + sizeof(uint32_t);
+    for_each_part(
+        tree, [&](const auto& value) { size_bytes += sizeof(value); },
+        [&](const auto& array) { size_bytes += sizeof(uint64_t) + array.size() * sizeof(array[0]); });
+    bytes.reserve(size_bytes);
     lod::ByteWriter out(bytes);
     out.value(static_cast<uint32_t>(tree.is_on_earth ? 1 : 0));
     for_each_part(

@@ -129,16 +129,20 @@ lod::Result<lod::Ok> run_clusters_build(const ClustersBuildArguments& arguments)
     const Stopwatch building;
     objects::BuildOptions options = arguments.options;
     options.threads = arguments.threads;
+    objects::BuildCounts counts;
     const objects::ClusterTree tree =
-        objects::build_cluster_tree(*scene, options, [](uint32_t level, size_t clusters) {
-            say_progress(fmt::format("level {}: {} clusters so far", level, clusters));
+        objects::build_cluster_tree(*scene, options, [&counts](const objects::BuildState& state) {
+            say_progress(fmt::format("level {}: {} clusters so far", state.level, state.clusters));
+            counts = state.counts;
         });
     const double built_s = building.seconds();
     const auto size_bytes = write_cluster_file(arguments.out, tree);
     if (!size_bytes) return size_bytes.error();
     say_progress(
         fmt::format("{}: {:.1f} MB, built in {:.1f} s", arguments.out, double(*size_bytes) * 1e-6, built_s));
-    std::printf("%s\n", facts_of(tree).dump().c_str());
+    nlohmann::json facts = facts_of(tree);
+    facts["work"] = {{"nodes", counts.nodes}, {"steps", counts.steps}, {"faces", counts.faces}};
+    std::printf("%s\n", facts.dump().c_str());
     return lod::Ok{};
 }
 

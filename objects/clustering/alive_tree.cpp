@@ -78,9 +78,10 @@ void AliveTree::remove(uint32_t point) {
     }
 }
 
-void AliveTree::nearest(uint32_t point, double radius, size_t most, std::vector<uint32_t>& out) const {
+size_t AliveTree::nearest(uint32_t point, double radius, size_t most, std::vector<uint32_t>& out) const {
     out.clear();
-    if (nodes_.empty() || most == 0) return;
+    if (nodes_.empty() || most == 0) return 0;
+    size_t visited = 0;
     const PlaceAndTime& centre = points_[place_[point]];
     using Found = std::pair<double, uint32_t>;  // square, original index
     std::vector<Found> found;                   // a heap, farthest first
@@ -90,6 +91,7 @@ void AliveTree::nearest(uint32_t point, double radius, size_t most, std::vector<
     while (!stack.empty()) {
         const auto [id, distance2] = stack.back();
         stack.pop_back();
+        ++visited;
         const Node& node = nodes_[id];
         if (node.alive == 0 || distance2 > limit2()) continue;
         if (node.right != 0) {
@@ -118,6 +120,7 @@ void AliveTree::nearest(uint32_t point, double radius, size_t most, std::vector<
     std::sort_heap(found.begin(), found.end());
     for (const Found& one : found)
         out.push_back(one.second);
+    return visited;
 }
 
 }  // namespace objects

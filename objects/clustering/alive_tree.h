@@ -24,7 +24,8 @@ class AliveTree {
 
     /// The up to `most` living points nearest to `point` (itself left out) within `radius`, nearest first; of equal
     /// distances the smaller index. `out` is cleared first.
-    void nearest(uint32_t point, double radius, size_t most, std::vector<uint32_t>& out) const;
+    /// @returns  how many nodes of the tree were looked at
+    size_t nearest(uint32_t point, double radius, size_t most, std::vector<uint32_t>& out) const;
 
   private:
     struct Node {

@@ -27,7 +27,7 @@ struct LevelThresholds {
 };
 
 /// @param level   1 … levels; beyond levels what is left is joined: errors go on growing, size and time do not matter
-/// @param size_m  W, of the whole scene
+/// @param size_m  W: of the whole scene, or a little more
 inline LevelThresholds thresholds_at(const BuildOptions& options, uint32_t level, double size_m) {
     const double last = static_cast<double>(options.levels), now = static_cast<double>(level);
     const double share = options.is_linear ? now / last : std::exp2(now - last);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "objects/clustering/flatten.h"
 #include "objects/clustering/grouping.h"
@@ -13,9 +14,19 @@ namespace objects {
 namespace {
 
 constexpr uint32_t kMostLevels = 24;
-constexpr double kFirstSizes = 3.0;  ///< the first level's clusters are at least so many usual objects wide
+constexpr double kFirstSizes = 9.5;  ///< w(1) in usual objects, whatever the scene's size
 
-/// W: the extent of everything, and a level for each doubling from the size most objects have to that.
+/// Of values in any order: what most of them are near to, without a jump where two kinds are equally many.
+double mean_of_middle_half(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const size_t begin = values.size() / 4, end = values.size() - begin;
+    return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                           values.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
+           static_cast<double>(end - begin);
+}
+
+/// W: the extent of everything, and levels. Unless asked for so many, they double from the size most objects have until
+/// they hold the scene, and W is rounded up to that: an object of a large scene is treated like one of a small scene.
 void settle_levels(Draft& draft) {
     std::vector<double> sizes;
     bool is_first = true;
@@ -34,14 +45,12 @@ void settle_levels(Draft& draft) {
     const double largest = sizes.empty() ? 1.0 : *std::max_element(sizes.begin(), sizes.end());
     draft.size_m = std::max({glm::length(high - low), largest, 1e-6});
     if (draft.options.levels > 0) return;
-    double usual = largest;
-    if (!sizes.empty()) {
-        const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-        std::nth_element(sizes.begin(), middle, sizes.end());
-        usual = *middle;
-    }
-    const double doublings = std::floor(std::log2(draft.size_m / (kFirstSizes * usual)));
-    draft.options.levels = static_cast<uint32_t>(std::clamp(doublings, 1.0, double(kMostLevels)));
+    const double usual = sizes.empty() ? largest : mean_of_middle_half(sizes);
+    const double first_m = kFirstSizes * usual;
+    const double doublings =
+        std::clamp(std::ceil(std::log2(draft.size_m / first_m)), 0.0, double(kMostLevels - 1));
+    draft.options.levels = static_cast<uint32_t>(doublings) + 1;
+    draft.size_m = std::max(draft.size_m, std::exp2(doublings) * first_m);
 }
 
 /// Levels of one frame up to a single top.
@@ -50,12 +59,13 @@ uint32_t build_hierarchy(Draft& draft, std::vector<uint32_t> active, const Hiera
                          const BuildProgress& progress) {
     for (uint32_t level = 1; level <= draft.options.levels || active.size() > 1; ++level) {
         const Grouping grouping = group_neighbours(draft, active, draft.at(level));
+        draft.counts.add(grouping.counts);
         std::vector<uint32_t> released = grouping.waiting;
         std::vector<uint32_t> next = merge_groups(draft, grouping.groups, level, frame, released);
         const std::vector<uint32_t> alone = reduce_alone(draft, released, level, frame);
         next.insert(next.end(), alone.begin(), alone.end());
         active = std::move(next);
-        if (progress) progress(level, draft.clusters.size());
+        if (progress) progress({level, draft.clusters.size(), draft.counts});
     }
     return active[0];
 }
@@ -100,6 +110,7 @@ uint32_t build_movers(Draft& draft, const std::vector<uint32_t>& movers, const B
         ++level;
         const Grouping grouping =
             group_neighbours(draft, tops, thresholds_at(draft.options, level, draft.size_m));
+        draft.counts.add(grouping.counts);
         std::vector<uint32_t> next = grouping.waiting;
         for (const std::vector<uint32_t>& group : grouping.groups) {
             uint32_t above = 0;
@@ -108,7 +119,7 @@ uint32_t build_movers(Draft& draft, const std::vector<uint32_t>& movers, const B
             next.push_back(hold(draft, group, std::max(above, level), data::MotionClass::kDynamic));
         }
         tops = std::move(next);
-        if (progress) progress(level, draft.clusters.size());
+        if (progress) progress({level, draft.clusters.size(), draft.counts});
     }
     return tops[0];
 }

@@ -16,12 +16,18 @@
 #include <functional>
 
 #include "objects/cluster_tree.h"
+#include "objects/clustering/build_counts.h"
 #include "objects/clustering/build_options.h"
 
 namespace objects {
 
-/// Told now and then how far the build has come: level, and clusters so far.
-using BuildProgress = std::function<void(uint32_t level, size_t clusters)>;
+/// How far a build has come.
+struct BuildState {
+    uint32_t level = 0;   ///< the last one done
+    size_t clusters = 0;  ///< so far, leaves included
+    BuildCounts counts;   ///< so far
+};
+using BuildProgress = std::function<void(const BuildState&)>;  ///< told after each level
 
 /// @param scene  as data::check_timed_scene wants it
 /// @returns      a tree in which every object that is there at a time is there in exactly one leaf; the same for any

@@ -151,6 +151,7 @@ class DistinctParts {
 void make_leaves(Draft& draft) {
     const data::TimedScene& scene = draft.scene;
     DistinctParts distinct(draft);
+    draft.clusters.reserve(scene.objects.size() + scene.objects.size() / 8);
     std::vector<Stay> stays;
     for (uint32_t i = 0; i < scene.objects.size(); ++i) {
         stays_of(scene, scene.objects[i], draft.options.least_rest_share * scene.end_s, stays);
@@ -177,7 +178,7 @@ void make_leaves(Draft& draft) {
 
 Draft make_draft(const data::TimedScene& scene, const BuildOptions& options) {
     CHECK(scene.end_s > 0.0);
-    Draft draft{scene, options, 0.0, {}, {}, {}, {}, {}, {}};
+    Draft draft{scene, options, 0.0, {}, {}, {}, {}, {}, {}, {}};
     make_meshes(draft);
     make_leaves(draft);
     return draft;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "objects/clustering/build_counts.h"
 #include "objects/clustering/build_options.h"
 #include "objects/clustering/geometry_pool.h"
 #include "objects/clustering/step_function.h"
@@ -56,6 +57,7 @@ struct Draft {
     std::vector<StepFunction> functions;
     std::vector<data::IndexRange> motions;  ///< distinct ones, into scene.keys
     GeometryPool pool;
+    BuildCounts counts;
 
     LevelThresholds at(uint32_t level) const { return thresholds_at(options, level, size_m); }
 };

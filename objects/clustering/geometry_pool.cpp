@@ -131,12 +131,14 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
 }
 
 bool GeometryPool::is_equal(const ClusterGeometry& known, const DrawnGeometry& geometry) const {
-    return known.vertex_count == geometry.vertices.size() && known.index_count == geometry.indices.size() &&
-           known.glass_index_count == geometry.glass_index_count &&
-           std::equal(geometry.indices.begin(), geometry.indices.end(),
-                      indices_.begin() + known.first_index) &&
-           (geometry.vertices.empty() || std::memcmp(geometry.vertices.data(), &vertices_[known.first_vertex],
-                                                     geometry.vertices.size() * sizeof(lod::Vertex)) == 0);
+    if (known.vertex_count != geometry.vertices.size() || known.index_count != geometry.indices.size() ||
+        known.glass_index_count != geometry.glass_index_count)
+        return false;
+    const std::span<const uint32_t> indices = indices_.at(known.first_index, known.index_count);
+    const std::span<const lod::Vertex> vertices = vertices_.at(known.first_vertex, known.vertex_count);
+    return std::equal(indices.begin(), indices.end(), geometry.indices.begin()) &&
+           (vertices.empty() ||
+            std::memcmp(geometry.vertices.data(), vertices.data(), vertices.size_bytes()) == 0);
 }
 
 uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
@@ -148,13 +150,11 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
     CHECK(vertices_.size() + geometry.vertices.size() < 0xffffffffu);
     CHECK(indices_.size() + geometry.indices.size() < 0xffffffffu);
     ClusterGeometry added;
-    added.first_vertex = static_cast<uint32_t>(vertices_.size());
     added.vertex_count = static_cast<uint32_t>(geometry.vertices.size());
-    added.first_index = static_cast<uint32_t>(indices_.size());
     added.index_count = static_cast<uint32_t>(geometry.indices.size());
     added.glass_index_count = geometry.glass_index_count;
-    vertices_.insert(vertices_.end(), geometry.vertices.begin(), geometry.vertices.end());
-    indices_.insert(indices_.end(), geometry.indices.begin(), geometry.indices.end());
+    added.first_vertex = static_cast<uint32_t>(vertices_.append(geometry.vertices));
+    added.first_index = static_cast<uint32_t>(indices_.append(geometry.indices));
     const uint32_t id = static_cast<uint32_t>(geometries_.size());
     geometries_.push_back(added);
     by_hash_.emplace(hash, id);
@@ -163,8 +163,8 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
 
 void GeometryPool::move_to(ClusterTree& tree) {
     tree.geometries = std::move(geometries_);
-    tree.vertices = std::move(vertices_);
-    tree.indices = std::move(indices_);
+    tree.vertices = vertices_.release();
+    tree.indices = indices_.release();
     *this = GeometryPool();
 }
 

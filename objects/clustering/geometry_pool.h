@@ -7,6 +7,7 @@
 #include "data/timed_scene.h"
 #include "lod/draw_list.h"
 #include "objects/cluster_tree.h"
+#include "objects/clustering/growing_array.h"
 #include "objects/reduction/face_soup.h"
 
 namespace objects {
@@ -38,8 +39,8 @@ class GeometryPool {
     bool is_equal(const ClusterGeometry& known, const DrawnGeometry& geometry) const;
 
     std::vector<ClusterGeometry> geometries_;
-    std::vector<lod::Vertex> vertices_;
-    std::vector<uint32_t> indices_;
+    GrowingArray<lod::Vertex> vertices_;
+    GrowingArray<uint32_t> indices_;
     std::unordered_multimap<uint64_t, uint32_t> by_hash_;
 };
 

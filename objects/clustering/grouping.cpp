@@ -80,14 +80,15 @@ Grouping group_neighbours(const Draft& draft, std::span<const uint32_t> active, 
         const StepFunction& visibility = draft.functions[representative.visibility];
         GrowingBox box{representative.box_min, representative.box_max};
         std::vector<uint32_t> group = {order[i]};
-        tree.nearest(i, 2.0, kCandidatesPerChild * most, near);
+        out.counts.nodes += tree.nearest(i, 2.0, kCandidatesPerChild * most, near);
         for (uint32_t candidate : near) {
             if (group.size() > most) break;
             const DraftCluster& neighbour = draft.clusters[order[candidate]];
             const StepFunction& other = draft.functions[neighbour.visibility];
-            if (neighbour.visibility != representative.visibility &&
-                distance(visibility, other, draft.scene.end_s) > at.gamma)
-                continue;
+            if (neighbour.visibility != representative.visibility) {
+                out.counts.steps += visibility.time_s.size() + other.time_s.size();
+                if (distance(visibility, other, draft.scene.end_s) > at.gamma) continue;
+            }
             if (!box.take(neighbour, at.size_m)) continue;
             group.push_back(order[candidate]);
             tree.remove(candidate);

@@ -16,6 +16,7 @@ namespace objects {
 struct Grouping {
     std::vector<std::vector<uint32_t>> groups;  ///< the representative first, then neighbours, nearest first
     std::vector<uint32_t> waiting;              ///< found no neighbour
+    BuildCounts counts;
 };
 
 /// @param active   distinct clusters of one frame

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLeastShare = 0.05;      ///< of a level's error: with less left, geometry is joined as it is
 constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
+constexpr size_t kGroupsAtOnce = 256;     ///< so many finished clusters wait at most to be put into the draft
 constexpr double kMostSizes = 2.0;        ///< of w(l), beyond which nothing alone is reduced
 
 /// A cluster on its way: made by any thread, put into the draft in order.
@@ -21,6 +22,7 @@ struct Merged {
     StepFunction visibility;
     FaceSoup soup;
     DrawnGeometry drawn;
+    BuildCounts counts;
 };
 
 StepFunction mean_of(const Draft& draft, std::span<const uint32_t> children) {
@@ -41,6 +43,9 @@ void settle_time(const Draft& draft, double most_gamma, std::vector<uint32_t>& c
                  std::vector<uint32_t>& released) {
     for (;;) {
         out.visibility = mean_of(draft, children);
+        for (uint32_t child : children)
+            out.counts.steps += draft.functions[draft.clusters[child].visibility].time_s.size();
+        out.counts.steps += children.size() * out.visibility.time_s.size();
         size_t worst = 0;
         double gamma = 0.0;
         for (size_t i = 0; i < children.size(); ++i) {
@@ -79,11 +84,15 @@ void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uin
         error_m = std::max(error_m, cluster.error_m + more_m);
         child_error_m = std::max(child_error_m, cluster.error_m);
     }
+    out.counts.faces += joined.faces.size();
     const double limit_m = draft.at(level).error_m - error_m;
     FaceSoup reduced;
     if (limit_m > kLeastShare * draft.at(level).error_m) reduced = reduce_within(joined, limit_m);
     const bool is_reduced = !reduced.faces.empty() && reduced.faces.size() < joined.faces.size();
-    append_soup(is_reduced ? reduced : joined, glm::dmat3(1.0), middle, out.soup);
+    const FaceSoup& kept = is_reduced ? reduced : joined;
+    out.soup.points.reserve(kept.points.size());
+    out.soup.faces.reserve(kept.faces.size());
+    append_soup(kept, glm::dmat3(1.0), middle, out.soup);
     out.cluster.error_m = std::max(child_error_m, error_m + (is_reduced ? limit_m : 0.0));
     for (const auto& face : out.soup.faces) {
         for (uint32_t corner : face) {
@@ -135,27 +144,31 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
                                    uint32_t level, const HierarchyFrame& frame,
                                    std::vector<uint32_t>& released) {
     make_rungs(draft, shared_meshes(draft, groups), level);
-    std::vector<Merged> merged(groups.size());
-    std::vector<std::vector<uint32_t>> let_go(groups.size());
-    for_each_item(groups.size(), draft.options.threads, [&](size_t i) {
-        std::vector<uint32_t> children = groups[i];
-        settle_time(draft, draft.at(level).gamma, children, merged[i], let_go[i]);
-        DraftCluster& cluster = merged[i].cluster;
-        cluster.level = level;
-        cluster.motion = frame.motion;
-        cluster.motion_class = frame.motion_class;
-        cluster.children = children;
-        if (children.size() < 2) return;
-        settle_box(draft, children, cluster);
-        settle_geometry(draft, children, level, merged[i]);
-    });
     std::vector<uint32_t> made;
-    for (size_t i = 0; i < groups.size(); ++i) {
-        released.insert(released.end(), let_go[i].begin(), let_go[i].end());
-        if (merged[i].cluster.children.size() < 2)
-            released.push_back(merged[i].cluster.children[0]);
-        else
-            made.push_back(add_cluster(draft, merged[i]));
+    for (size_t begin = 0; begin < groups.size(); begin += kGroupsAtOnce) {
+        const auto some = std::span(groups).subspan(begin, std::min(kGroupsAtOnce, groups.size() - begin));
+        std::vector<Merged> merged(some.size());
+        std::vector<std::vector<uint32_t>> let_go(some.size());
+        for_each_item(some.size(), draft.options.threads, [&](size_t i) {
+            std::vector<uint32_t> children = some[i];
+            settle_time(draft, draft.at(level).gamma, children, merged[i], let_go[i]);
+            DraftCluster& cluster = merged[i].cluster;
+            cluster.level = level;
+            cluster.motion = frame.motion;
+            cluster.motion_class = frame.motion_class;
+            cluster.children = children;
+            if (children.size() < 2) return;
+            settle_box(draft, children, cluster);
+            settle_geometry(draft, children, level, merged[i]);
+        });
+        for (size_t i = 0; i < some.size(); ++i) {
+            draft.counts.add(merged[i].counts);
+            released.insert(released.end(), let_go[i].begin(), let_go[i].end());
+            if (merged[i].cluster.children.size() < 2)
+                released.push_back(merged[i].cluster.children[0]);
+            else
+                made.push_back(add_cluster(draft, merged[i]));
+        }
     }
     return made;
 }
@@ -182,6 +195,7 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
         settle_geometry(draft, {&alone[i], 1}, level, merged[i]);
     });
     for (size_t i = 0; i < alone.size(); ++i) {
+        draft.counts.add(merged[i].counts);
         const DraftCluster child = draft.clusters[alone[i]];
         DraftCluster parent = child;
         if (child.mesh != kNone) {

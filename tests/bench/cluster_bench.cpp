@@ -118,8 +118,10 @@ int main(int count, char** words) {
     begin = now_s();
     const double cpu_begin = cpu_s();
     const objects::ClusterTree tree =
-        objects::build_cluster_tree(scene, options, [&](uint32_t level, size_t clusters) {
-            std::printf("  %.1f s: level %u, %zu clusters\n", now_s() - begin, level, clusters);
+        objects::build_cluster_tree(scene, options, [&](const objects::BuildState& state) {
+            std::printf("  %.1f s: level %u, %zu clusters, %lu nodes, %lu steps, %lu faces\n",
+                        now_s() - begin, state.level, state.clusters, state.counts.nodes, state.counts.steps,
+                        state.counts.faces);
         });
     std::printf(
         "built in %.1f s, %.1f s of processors: %zu clusters, %zu geometries, %zu visibilities, %zu steps, "
