@@ -55,7 +55,7 @@ double probed_px(const data::HeightGrid& grid, const lod::View& view,
 
 TEST(Compare, ErrorsAreEqualAsAnIndependentCountFinds) {
     Bench bench;
-    ASSERT_EQ(bench.methods.size(), 6u);
+    ASSERT_EQ(bench.methods.size(), 7u);
     for (sim::Method& method : bench.methods) {
         for (const double target_px : {1.0, 4.0}) {
             SCOPED_TRACE(method.name + ", " + std::to_string(target_px) + " px");
