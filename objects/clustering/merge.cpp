@@ -11,7 +11,8 @@ namespace objects {
 
 namespace {
 
-constexpr double kLeastShare = 0.05;      ///< of a level's error: with less left, geometry is joined as it is
+constexpr double kLeastShare = 0.05;  ///< of a level's error: with less left, geometry is joined as it is
+constexpr double kSpentShare = 0.3;   ///< of a level's error: children that are off by more are passed over
 constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
 constexpr size_t kGroupsAtOnce = 256;     ///< so many finished clusters wait at most to be put into the draft
 constexpr double kMostSizes = 2.0;        ///< of w(l), beyond which nothing alone is reduced
@@ -73,18 +74,43 @@ void settle_box(const Draft& draft, std::span<const uint32_t> children, DraftClu
     }
 }
 
+/// Clusters whose geometry a parent is made of: children, or theirs where a child has spent so much of the level's error
+/// that little could be gained with the rest.
+void gather_sources(const Draft& draft, std::span<const uint32_t> children, uint32_t level,
+                    std::vector<uint32_t>& out) {
+    for (uint32_t child : children) {
+        const DraftCluster& cluster = draft.clusters[child];
+        if (cluster.error_m > kSpentShare * draft.at(level).error_m && cluster.soup != kNone)
+            out.insert(out.end(), cluster.children.begin(), cluster.children.end());
+        else
+            out.push_back(child);
+    }
+}
+
+/// Nothing is made of grandchildren's soups any more once a cluster is made.
+void drop_spent_soups(Draft& draft, const DraftCluster& cluster) {
+    for (uint32_t child : cluster.children) {
+        for (uint32_t grandchild : draft.clusters[child].children) {
+            if (draft.clusters[grandchild].soup != kNone) draft.soups[draft.clusters[grandchild].soup] = {};
+        }
+    }
+}
+
 /// Geometry: what stands for the children at this level, joined and reduced around the box's middle.
 void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uint32_t level, Merged& out) {
     const glm::dvec3 middle = 0.5 * (out.cluster.box_min + out.cluster.box_max);
+    std::vector<uint32_t> sources;
+    gather_sources(draft, children, level, sources);
     FaceSoup joined;
     double error_m = 0.0, child_error_m = 0.0;
-    for (uint32_t child : children) {
-        const DraftCluster& cluster = draft.clusters[child];
+    for (uint32_t source : sources) {
+        const DraftCluster& cluster = draft.clusters[source];
         const double more_m = append_cluster_soup(draft, cluster, level, -middle, joined);
         error_m = std::max(error_m, cluster.error_m + more_m);
-        child_error_m = std::max(child_error_m, cluster.error_m);
     }
     out.counts.faces += joined.faces.size();
+    for (uint32_t child : children)
+        child_error_m = std::max(child_error_m, draft.clusters[child].error_m);
     const double limit_m = draft.at(level).error_m - error_m;
     FaceSoup reduced;
     if (limit_m > kLeastShare * draft.at(level).error_m) reduced = reduce_within(joined, limit_m);
@@ -111,9 +137,7 @@ uint32_t add_cluster(Draft& draft, Merged& merged) {
     cluster.geometry = draft.pool.add(merged.drawn);
     cluster.soup = static_cast<uint32_t>(draft.soups.size());
     draft.soups.push_back(std::move(merged.soup));
-    for (uint32_t child : cluster.children) {
-        if (draft.clusters[child].soup != kNone) draft.soups[draft.clusters[child].soup] = {};
-    }
+    drop_spent_soups(draft, cluster);
     draft.clusters.push_back(std::move(cluster));
     return static_cast<uint32_t>(draft.clusters.size()) - 1;
 }
@@ -214,12 +238,12 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
             parent.geometry = draft.pool.add(merged[i].drawn);
             parent.soup = static_cast<uint32_t>(draft.soups.size());
             draft.soups.push_back(std::move(merged[i].soup));
-            draft.soups[child.soup] = {};
         }
         parent.children = {alone[i]};
         parent.object = kNoObject;
         parent.level = level;
         parent.motion = child.mesh != kNone ? child.motion : frame.motion;
+        drop_spent_soups(draft, parent);
         tops[i] = static_cast<uint32_t>(draft.clusters.size());
         draft.clusters.push_back(std::move(parent));
     }

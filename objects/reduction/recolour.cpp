@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lod/surface/triangle_tree.h"
-
 namespace objects {
 
 namespace {
@@ -27,32 +25,24 @@ struct Mixture {
     double weight = 0.0;
 };
 
-/// The points that speak for a face: the middles of the four triangles its edges' middles cut it into.
-std::array<glm::dvec3, 4> quarters(const lod::Triangle& t) {
-    const glm::dvec3 middle = (t.a + t.b + t.c) / 3.0;
-    return {middle, (middle + t.a) * 0.5, (middle + t.b) * 0.5, (middle + t.c) * 0.5};
-}
-
 }  // namespace
 
-void recolour(const FaceSoup& source, double limit_m, FaceSoup& result) {
+void recolour(const FaceSoup& source, const NearestFaces& nearest, FaceSoup& result) {
     std::vector<Mixture> mixtures(result.faces.size());
     std::vector<glm::dvec3> across(result.faces.size());
     for (size_t face = 0; face < result.faces.size(); ++face)
         across[face] = area_vector(result.view().triangle(face));
-    const lod::TriangleTree tree(result.view());
     for (size_t face = 0; face < source.faces.size(); ++face) {
         if (source.colours[face].w < 255) continue;
         const lod::Triangle triangle = source.view().triangle(face);
         const glm::dvec3 area = area_vector(triangle);
         const double size = glm::length(area);
-        for (const glm::dvec3& point : quarters(triangle)) {
-            const lod::TriangleHit hit = tree.nearest(point, limit_m);
-            if (hit.triangle >= mixtures.size() || result.colours[hit.triangle].w < 255) continue;
-            const glm::dvec3& onto = across[hit.triangle];
+        for (const uint32_t near : nearest[face]) {
+            if (near == kNoFace || result.colours[near].w < 255) continue;
+            const glm::dvec3& onto = across[near];
             if (std::abs(glm::dot(area, onto)) < kLeastCosine * size * glm::length(onto)) continue;
-            mixtures[hit.triangle].light += size * light_of(source.colours[face]);
-            mixtures[hit.triangle].weight += size;
+            mixtures[near].light += size * light_of(source.colours[face]);
+            mixtures[near].weight += size;
         }
     }
     for (size_t face = 0; face < result.faces.size(); ++face) {

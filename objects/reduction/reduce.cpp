@@ -6,6 +6,7 @@
 
 #include "lod/base/check.h"
 #include "lod/surface/surface_distance.h"
+#include "objects/reduction/breadth.h"
 #include "objects/reduction/contraction.h"
 #include "objects/reduction/cover.h"
 #include "objects/reduction/recolour.h"
@@ -15,6 +16,8 @@ namespace objects {
 namespace {
 
 constexpr double kWeldShare = 1.0 / 64.0;  ///< of the limit: cells in which points become one at once
+constexpr double kFirstShare =
+    0.05;  ///< … what is finely bent becomes plain first: strips would go one by one
 constexpr double kCoverShare = 0.4;        ///< … faces nearer than that to larger ones go
 constexpr double kSecondCoverShare = 0.1;  ///< … once parts have grown together
 constexpr double kReachShare = 0.8;        ///< … how near to each other points of different parts join
@@ -51,7 +54,8 @@ Failures find_failures(const FaceSoup& source, const lod::TriangleTree& source_t
 
 /// Grows parts together first, so that what was a border is none any more when edges are judged.
 FaceSoup propose(const FaceSoup& welded, double limit_m) {
-    FaceSoup base = large_cover(welded, kCoverShare * limit_m);
+    const std::vector<double> first_m(welded.points.size(), kFirstShare * limit_m);
+    FaceSoup base = large_cover(contract(welded, first_m, {}), kCoverShare * limit_m);
     drop_unused_points(base);
     const double reach_m = kReachShare * limit_m;
     const std::vector<double> tolerance_m(base.points.size(), kToleranceShare * limit_m);
@@ -94,7 +98,10 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     if (failures.size() > 0) mend(source, failures, limit_m, result);
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
-    recolour(source, limit_m, result);
+    const NearestFaces nearest = nearest_faces(source, result, limit_m);
+    recolour(source, nearest, result);
+    keep_breadth(source, source_tree, nearest, limit_m, result);
+    if (result.faces.size() >= source.faces.size()) return source;
     return result;
 }
 

@@ -2,7 +2,7 @@
 //
 // Cover (cover.h) and contraction (contraction.h) propose; the two-sided surface distance
 // (lod/surface/surface_distance.h) judges every face of both surfaces. What fails is mended with the source's own faces,
-// which are at distance 0. So the result always holds, and at worst is the source.
+// which are at distance 0. So the result always holds, and at worst is the source. What is thin keeps its breadth (breadth.h).
 #pragma once
 
 #include "objects/reduction/face_soup.h"

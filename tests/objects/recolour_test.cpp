@@ -25,7 +25,7 @@ TEST(Recolour, WallsDarkenByTheWindowsTheyStandFor) {
     }
     FaceSoup wall;
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.05, {200, 200, 200, 255}, wall);
-    recolour(house, 0.2, wall);
+    recolour(house, nearest_faces(house, wall, 0.2), wall);
     // Light, not numbers: sqrt((200² + 40²) / 2) = 144, sqrt((200² + 80²) / 2) = 152.
     for (const glm::u8vec4& colour : wall.colours) {
         EXPECT_NEAR(colour.x, 144, 12);
@@ -40,7 +40,7 @@ TEST(Recolour, WhatIsFarOrFacesElsewhereDoesNotCount) {
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.1, {0, 255, 0, 128}, source);  // glass
     FaceSoup wall;
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.0, {10, 20, 30, 255}, wall);
-    recolour(source, 0.5, wall);
+    recolour(source, nearest_faces(source, wall, 0.5), wall);
     for (const glm::u8vec4& colour : wall.colours)
         EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 255));
 }
