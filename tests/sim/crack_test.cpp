@@ -71,8 +71,8 @@ TEST_P(RivalCracks, None) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RivalCracks,
-    testing::Combine(testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm,
-                                     Rival::kRoamMergeOnly),
+    testing::Combine(testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks,
+                                     Rival::kVdpm, Rival::kRoamMergeOnly),
                      testing::Values(31u, 32u)),
     [](const auto& trial) {
         return std::string(terrain::kRivals[static_cast<size_t>(std::get<0>(trial.param))].name) + "_" +

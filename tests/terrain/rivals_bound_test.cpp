@@ -188,8 +188,8 @@ TEST(GeoMipmapBound, CountsWhatStitchingAdds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RivalBound,
-                         testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm,
-                                         Rival::kRoamMergeOnly),
+                         testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks,
+                                         Rival::kVdpm, Rival::kRoamMergeOnly),
                          [](const testing::TestParamInfo<Rival>& kind) {
                              return terrain_test::name_of(kind.param);
                          });

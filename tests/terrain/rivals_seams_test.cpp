@@ -95,7 +95,8 @@ TEST_P(ConformingRivals, KeepThePoolUpToDate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ConformingRivals,
-                         testing::Values(Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm, Rival::kRoamMergeOnly),
+                         testing::Values(Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm,
+                                         Rival::kRoamMergeOnly),
                          [](const testing::TestParamInfo<Rival>& kind) {
                              return terrain_test::name_of(kind.param);
                          });

@@ -151,8 +151,8 @@ TEST_P(Rivals, TheTriangleLimitHolds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Rivals,
-                         testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks, Rival::kVdpm,
-                                         Rival::kRoamMergeOnly),
+                         testing::Values(Rival::kChunkedQuadtree, Rival::kGeoMipmap, Rival::kVipmBlocks,
+                                         Rival::kVdpm, Rival::kRoamMergeOnly),
                          [](const testing::TestParamInfo<Rival>& kind) {
                              return terrain_test::name_of(kind.param);
                          });
