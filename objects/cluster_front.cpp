@@ -51,7 +51,7 @@ void ClusterFront::count_triangles(const CutRecord& record, int64_t sign) {
 /// Puts a record where its next operation is looked for.
 void ClusterFront::offer(const CutRecord& record) {
     if (record.is_refined) {
-        cheapest_.push(record.error_px, record.id);
+        if (!needs_children(record)) cheapest_.push(record.error_px, record.id);
     } else if (record.error_px > 0.0 && !tree_.is_leaf(record.id)) {  // a leaf is exact
         worst_.push(record.error_px, record.id);
     }
@@ -99,7 +99,7 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
         }
         if (is_new_view || has_event || tree_.moves(record.id)) evaluate(record);
         offer(record);
-        if (must_open(record)) to_open_.push_back(record.id);
+        if (!record.is_refined && needs_children(record)) to_open_.push_back(record.id);
     }
     for (ClusterId id : to_open_)
         open(id);
@@ -127,10 +127,10 @@ double ClusterFront::error_px() {
     return refine_error_px();
 }
 
-/// In view, and nothing to draw for it.
-bool ClusterFront::must_open(const CutRecord& record) const {
+/// In view, and nothing to draw for it but its children.
+bool ClusterFront::needs_children(const CutRecord& record) const {
     const Cluster& cluster = tree_.clusters[record.id];
-    return record.is_seen && !record.is_refined && cluster.geometry == kNoGeometry && cluster.child_count > 0;
+    return record.is_seen && cluster.geometry == kNoGeometry && cluster.child_count > 0;
 }
 
 /// Replaces an active cluster by its children, and children that must be opened by theirs. Returns how many came.
@@ -149,7 +149,7 @@ uint32_t ClusterFront::open(ClusterId id) {
         for (uint32_t i = 0; i < cluster.child_count; ++i) {
             const ClusterId child = cluster.first_child + i;
             add(child);
-            if (must_open(cut_.at(child))) stack_.push_back(child);
+            if (needs_children(cut_.at(child))) stack_.push_back(child);
         }
         come += cluster.child_count;
     }

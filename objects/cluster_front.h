@@ -6,7 +6,8 @@
 //      +- cluster     refined
 //          +- leaf    active
 //
-// A cluster without geometry that is in view is refined at once, whatever the budget: nothing could stand for it.
+// A cluster without geometry that is in view is refined at once and stays so, whatever the budget: nothing could stand
+// for it.
 // Refining replaces an active cluster by its children; coarsening takes a refined one back with everything below it.
 // Any refined cluster may be taken back, not only one above the cut's end: what a whole branch costs is its own error.
 //
@@ -68,7 +69,7 @@ class ClusterFront final : public lod::Front {
     void add(ClusterId id);
     void remove(ClusterId id);
     void offer(const CutRecord& record);
-    bool must_open(const CutRecord& record) const;
+    bool needs_children(const CutRecord& record) const;
     uint32_t open(ClusterId id);
     uint32_t take_back(ClusterId id);
     void emit_writes(lod::DrawList& out);

@@ -93,6 +93,31 @@ TEST(ClusterFront, IsValidAfterEveryOperation) {
     }
 }
 
+/// A budget of nothing takes back what it can, but nothing without something that stands for it.
+TEST(ClusterFront, WithoutABudgetIsCoarserNeverMissing) {
+    lod::Rng rng(8);
+    int seen_count = 0, bare_count = 0;
+    for (uint64_t seed = 100; seed < 130; ++seed) {
+        SCOPED_TRACE(seed);
+        const RandomClusters scene(seed, 200, kEnd_s);
+        ClusterFront front(scene.tree(), {});
+        std::vector<lod::Front*> fronts{&front};
+        bare_count += scene.tree().clusters[0].geometry == kNoGeometry ? 1 : 0;
+        for (int i = 0; i < 10; ++i) {
+            const lod::View view = random_view(rng);
+            front.begin_frame({&view, 1}, rng.between(0.0, kEnd_s));
+            converge(front, 4.0);
+            const uint64_t most = front.triangles();
+            lod::schedule(fronts, {.tolerance_px = 4.0, .max_triangles = 1}, lod::operation_limit(100'000));
+            EXPECT_LE(front.triangles(), most);
+            ASSERT_EQ(front.validate(), "");  // looks for clusters in view with nothing to draw
+            seen_count += most > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(seen_count, 100);
+    EXPECT_GT(bare_count, 1);
+}
+
 TEST(ClusterFront, ForgetsHowItCameToATime) {
     const RandomClusters scene(5, 1000, kEnd_s);
     lod::Rng rng(6);
