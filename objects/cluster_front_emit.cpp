@@ -75,7 +75,8 @@ std::string ClusterFront::validate() const {
                 ways.push_back(cluster.first_child + i);
             continue;
         }
-        if (needs_children(record)) return "cluster " + std::to_string(id) + " is in view and has nothing to draw";
+        if (needs_children(record))
+            return "cluster " + std::to_string(id) + " is in view and has nothing to draw";
         ++leaves;
         hash += cluster_hash(id);
         if (record.presence.share >= 0.5 && cluster.geometry != kNoGeometry)
