@@ -30,6 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kRate_hz = 60.0, kGlide_s = 0.4;
+constexpr int kFramesAMinute = 3600;
 constexpr uint64_t kMaxTriangles = 400'000;
 constexpr int kWidth_px = 640, kHeight_px = 360;
 constexpr int kWarmFrames = 120, kFramesPerCheck = 600;
@@ -154,6 +155,7 @@ Flight fly(const Rig& rig, int frames) {
     auto next_frame = Clock::now();
     for (int frame = 0; frame < frames; ++frame) {
         const double time_s = frame / kRate_hz;
+        if (frame % kFramesAMinute == 0) std::fprintf(stderr, "frame %d of %d\n", frame, frames);
         lod::View view = path.view_at(time_s);
         if (rig.picture != nullptr) view = rig.picture->sized(view);
         // In turn, so that neither always finds the caches as the other left them.
