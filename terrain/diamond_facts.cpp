@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/small_diamond.h"
+
 namespace terrain {
 namespace {
 
@@ -43,18 +45,12 @@ HalfSamples look_at(const FactsPass& pass, const TriangleCorners& t, uint64_t* s
 
 HalfResult half_error(const FactsPass& pass, const TriangleCorners& t, uint64_t* samples) {
     const auto [raw, cover] = look_at(pass, t, samples);
-    HalfResult half{raw.residual_m, false};
-    const auto chord = pass.grid.frame.chord_error_per_cell2();
-    const glm::dvec2 cell = pass.grid.frame.cell_m();
-    if (chord.up_m > 0.0) {
-        const double slope =
-            std::abs(double(raw.gradient_x)) / cell.x + std::abs(double(raw.gradient_y)) / cell.y;
-        half.error_m += static_cast<float>(pass.cells * pass.cells * (chord.up_m + slope * chord.side_m));
-    }
+    HalfResult half{raw.residual_m + chord_error_m(pass, raw), false};
     if (pass.grid.has_voids()) {
         half.is_empty = !cover.any_valid;
         if (cover.any_valid &&
             cover.any_void) {  // the rim of a hole is off by as much as the triangle is long
+            const glm::dvec2 cell = pass.grid.frame.cell_m();
             half.error_m += static_cast<float>(pass.cells * std::max(cell.x, cell.y));
         }
     }
@@ -88,6 +84,7 @@ FactsPass make_facts_pass(const data::HeightGrid& grid, const Domain& domain, in
 }
 
 DiamondSource own_facts(const FactsPass& pass, GridPoint centre, uint64_t* samples) {
+    if (is_small(pass, centre)) return small_facts(pass, centre);
     const int apex_dir = apex_direction(pass.domain, centre, pass.level);
     DiamondSource source = outline(pass, centre, apex_dir);
     float error_m = 0.0f;

@@ -2,6 +2,8 @@
 // up to date, computes them here.
 #pragma once
 
+#include <cmath>
+
 #include "terrain/diamond_table.h"
 #include "terrain/triangle_error.h"
 
@@ -18,6 +20,16 @@ struct FactsPass {
         nullptr;  ///< of the grid: search large triangles; null: scan them all
 };
 FactsPass make_facts_pass(const data::HeightGrid& grid, const Domain& domain, int level);
+
+/// What straight chords of one triangle lose on the curved Earth, metres; 0 on planar grids.
+inline float chord_error_m(const FactsPass& pass, const TriangleError& plane) {
+    const auto chord = pass.grid.frame.chord_error_per_cell2();
+    if (!(chord.up_m > 0.0)) return 0.0f;
+    const glm::dvec2 cell = pass.grid.frame.cell_m();
+    const double slope =
+        std::abs(double(plane.gradient_x)) / cell.x + std::abs(double(plane.gradient_y)) / cell.y;
+    return static_cast<float>(pass.cells * pass.cells * (chord.up_m + slope * chord.side_m));
+}
 
 /// A diamond's facts; the error is that of its own two triangles, not saturated.
 /// @param samples  null, or grows by how many samples a search looked at

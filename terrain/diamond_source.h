@@ -11,7 +11,13 @@ namespace terrain {
 
 /// Metres to a 16-bit logarithm, rounded up; 0 only for 0. Anything below 0.12 mm becomes 0.12 mm; above 524 km
 /// saturates.
-uint16_t encode_length(float length_m);
+inline uint16_t encode_length(float length_m) {
+    if (!(length_m > 0.0f)) return 0;
+    constexpr uint32_t kBase = (127u - 13u) << 11;
+    const uint32_t bits = (std::bit_cast<uint32_t>(length_m) + 0xfffu) >> 12;
+    if (bits <= kBase) return 1;
+    return static_cast<uint16_t>(std::min(bits - kBase + 1u, 65535u));
+}
 
 /// Metres of a code; decode(encode(x)) is in [x, 1.0005 x] for 0.12 mm <= x <= 524 km.
 inline float decode_length(uint16_t code) {

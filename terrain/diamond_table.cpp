@@ -5,6 +5,7 @@
 #include "lod/base/check.h"
 #include "lod/base/parallel.h"
 #include "terrain/diamond_facts.h"
+#include "terrain/fact_row.h"
 
 namespace terrain {
 namespace {
@@ -15,21 +16,18 @@ struct LevelPass {
     DiamondTable& table;
 };
 
-void fill_diamond(const LevelPass& pass, GridPoint centre) {
-    DiamondTable& table = pass.table;
-    DiamondSource source = own_facts(pass.facts, centre);
-    source.error_code = std::max(source.error_code, error_code_below(table, centre, pass.facts.level));
-    const PagePlace place = table.layout.place(centre, pass.facts.level);
-    table.slots[table.slot_of_page[place.page] * kPageEntries + place.entry] = source;
-}
-
 void fill_row(const LevelPass& pass, int y) {
     const Domain& domain = pass.table.domain;
     const int reach = pass.facts.reach;
     const bool turned = (pass.facts.level & 1) != 0;
     const int first = turned && ((y / reach) & 1) != 0 ? 0 : reach;
-    for (int x = first; x - reach < domain.width - 1 && x <= domain.side(); x += 2 * reach)
-        fill_diamond(pass, {x, y});
+    FactRow row(pass.table, pass.facts.level, y);
+    ChildCodes children(pass.table, pass.facts.level, y);
+    for (int x = first; x - reach < domain.width - 1 && x <= domain.side(); x += 2 * reach) {
+        DiamondSource source = own_facts(pass.facts, {x, y});
+        source.error_code = std::max(source.error_code, children.largest(x));
+        row.at(x) = source;
+    }
 }
 
 void fill_level(const LevelPass& pass, unsigned threads) {

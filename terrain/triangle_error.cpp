@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "terrain/block_search.h"
-#include "terrain/plane_rows.h"
+#include "terrain/regular_triangle.h"
 #include "terrain/triangle_rows.h"
 
 namespace terrain {
@@ -13,14 +13,6 @@ namespace {
 
 using Lanes = float __attribute__((vector_size(32)));
 constexpr int kLaneCount = 8;
-
-/// Four roundings of the plane's value, in units of the largest height involved.
-constexpr float kRoundingShare = 4.0f * 0x1p-24f;
-
-/// A bound on rounding: heights of `scale` metres through four float operations. Exact residuals stay exact.
-float with_rounding(float residual, float scale) {
-    return residual == 0.0f ? 0.0f : residual + scale * kRoundingShare;
-}
 
 /// max_residual; rows too short for a vector stay here, without a call.
 inline float row_residual(const float* samples, int count, float first, float gradient) {
@@ -30,11 +22,6 @@ inline float row_residual(const float* samples, int count, float first, float gr
         worst = std::max(worst, std::abs(samples[i] - (first + gradient * static_cast<float>(i))));
     }
     return worst;
-}
-
-/// How far the sample between two corners, two cells apart along each axis they differ in, is from their mean.
-float sagitta(const data::HeightGrid& grid, GridPoint p, float p_m, GridPoint q, float q_m) {
-    return std::abs(grid.at((p.x + q.x) / 2, (p.y + q.y) / 2) - 0.5f * (p_m + q_m));
 }
 
 /// Looks at every sample.
@@ -114,38 +101,6 @@ void gather_voids(const SearchedGround& ground, const TriangleSides& sides, cons
         for (int x = std::max(first, samples.min.x); x <= std::min(last, samples.max.x); ++x)
             (ground.grid.void_at(x, y) ? cover.any_void : cover.any_valid) = true;
     }
-}
-
-/// @param worst_of  (corners, rows) to max |sample - plane|
-template <typename WorstOf>
-TriangleError regular_error(const data::HeightGrid& grid, const TriangleCorners& t, const WorstOf& worst_of) {
-    const float a = grid.at(t.apex.x, t.apex.y);
-    const float l = grid.at(t.left.x, t.left.y), r = grid.at(t.right.x, t.right.y);
-    const float scale = std::max({std::abs(a), std::abs(l), std::abs(r)});
-    // Gradients along x and y in metres per cell; divisions by powers of two are exact.
-    float gx, gy, worst;
-    if (t.left.x != t.right.x && t.left.y != t.right.y) {
-        const bool left_on_x = t.left.y == t.apex.y;
-        const GridPoint on_x = left_on_x ? t.left : t.right, on_y = left_on_x ? t.right : t.left;
-        gx = ((left_on_x ? l : r) - a) / static_cast<float>(on_x.x - t.apex.x);
-        gy = ((left_on_x ? r : l) - a) / static_cast<float>(on_y.y - t.apex.y);
-        // Three quarters of all diamonds are of the two finest levels: their few samples lie on the sides.
-        worst = std::abs(on_x.x - t.apex.x) == 2
-                    ? std::max({sagitta(grid, t.left, l, t.right, r), sagitta(grid, t.apex, a, t.left, l),
-                                sagitta(grid, t.apex, a, t.right, r)})
-                    : worst_of(t, LegRows(t, {t.apex, a, gx, gy}));
-    } else if (t.left.y == t.right.y) {
-        gx = (r - l) / static_cast<float>(t.right.x - t.left.x);
-        gy = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.y - t.left.y);
-        worst = std::abs(t.apex.y - t.left.y) == 1 ? sagitta(grid, t.left, l, t.right, r)
-                                                   : worst_of(t, HypotenuseRows(t, {t.apex, a, gx, gy}));
-    } else {
-        gy = (r - l) / static_cast<float>(t.right.y - t.left.y);
-        gx = (a - 0.5f * (l + r)) / static_cast<float>(t.apex.x - t.left.x);
-        worst = std::abs(t.apex.x - t.left.x) == 1 ? sagitta(grid, t.left, l, t.right, r)
-                                                   : worst_of(t, HypotenuseRows(t, {t.apex, a, gx, gy}));
-    }
-    return {with_rounding(worst, scale), gx, gy};
 }
 
 template <typename WorstOf>
