@@ -16,7 +16,6 @@ const vec3 kHorizon = vec3(0.86, 0.885, 0.885);
 const vec3 kBelow = vec3(0.60, 0.67, 0.73);
 const vec3 kSunGlow = vec3(1.00, 0.94, 0.82);
 const vec3 kSunDisc = vec3(1.00, 0.99, 0.95);
-const float kSharper = -0.6;  // mip bias: the ground is mostly seen at a slant
 
 // Colour of endless air in a direction. @param height  sine of the elevation  @param towards_sun  cosine
 vec3 air(float height, float towards_sun) {
@@ -44,7 +43,7 @@ void main() {
     vec3 behind = mix(air(height, towards_sun), kSunDisc, share < 1.0 ? 0.0 : disc);
 
     vec2 place = v_place_haze.xy;
-    vec4 base = max(texture(ground, place * ground_grid.xy + ground_grid.zw, kSharper), vec4(v_pattern.w));
+    vec4 base = max(texture(ground, place * ground_grid.xy + ground_grid.zw), vec4(v_pattern.w));
     vec3 detail = texture(patterns, vec3(place - v_pattern.xy, v_pattern.z)).rgb * kPerNeutral - 1.0;
     vec3 surface = v_colour.rgb * base.rgb * (1.0 + base.a * detail);
     vec3 colour = mix(surface, behind * v_colour.a, share);
