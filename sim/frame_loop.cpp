@@ -18,7 +18,8 @@ constexpr int kWarmUpFrames = 8;
 constexpr double kRefineShare = 0.3;        // refinement never gets more of the period
 constexpr double kLeastRefineShare = 0.02;  // nor less: a crowded frame must still be able to coarsen
 constexpr double kMarginShare = 0.05;
-constexpr double kTriangleShare = 0.75;  // what all but refinement may fill
+constexpr double kTriangleShare = 0.85;  // what all but refinement may fill
+constexpr double kLeastPerMs = 360.0;    // triangles a ms of the period: fewer save next to nothing
 
 /// What the loop carries from frame to frame.
 struct Loop {
@@ -37,7 +38,8 @@ Loop make_loop(const LoopOptions& options) {
     Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}, options.schedule, 0.0};
     loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
     loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
-    loop.controller.target.min_triangles = std::min<uint64_t>(5000, loop.controller.target.max_triangles);
+    loop.controller.target.min_triangles =
+        std::min(static_cast<uint64_t>(kLeastPerMs * loop.period_ms()), loop.controller.target.max_triangles);
     loop.rest_ms = 0.5 * loop.period_ms();
     return loop;
 }
