@@ -85,20 +85,11 @@ struct Rig {
     double measured_px(const lod::View& view) const {
         double worst = 0.0;
         for (const DrawnTriangle& t : triangles) {
-            const auto [a, b, c] = t.samples;
-            const double area = double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y);
-            for (int y = std::min({a.y, b.y, c.y}); y <= std::max({a.y, b.y, c.y}); ++y) {
-                for (int x = std::min({a.x, b.x, c.x}); x <= std::max({a.x, b.x, c.x}); ++x) {
-                    const double u = (double(x - a.x) * (c.y - a.y) - double(c.x - a.x) * (y - a.y)) / area;
-                    const double v = (double(b.x - a.x) * (y - a.y) - double(x - a.x) * (b.y - a.y)) / area;
-                    if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
-                    const glm::dvec3 drawn =
-                        t.world[0] + u * (t.world[1] - t.world[0]) + v * (t.world[2] - t.world[0]);
-                    const glm::dvec3 truth(x * cell_m, (grid.height - 1 - y) * cell_m, double(grid.at(x, y)));
-                    if (is_in_view(view, truth) && is_in_view(view, drawn))
-                        worst = std::max(worst, apart_px(view, truth, drawn));
-                }
-            }
+            terrain_test::for_each_sample(t, [&](int x, int y, const glm::dvec3& drawn) {
+                const glm::dvec3 truth(x * cell_m, (grid.height - 1 - y) * cell_m, double(grid.at(x, y)));
+                if (is_in_view(view, truth) && is_in_view(view, drawn))
+                    worst = std::max(worst, apart_px(view, truth, drawn));
+            });
         }
         return worst;
     }

@@ -18,19 +18,9 @@ namespace terrain_test {
 inline std::vector<double> drawn_heights(const data::HeightGrid& grid,
                                          std::span<const DrawnTriangle> triangles) {
     std::vector<double> heights(grid.height_m.size(), std::nan(""));
-    for (const DrawnTriangle& t : triangles) {
-        const auto [a, b, c] = t.samples;
-        const double area = double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y);
-        for (int y = std::min({a.y, b.y, c.y}); y <= std::max({a.y, b.y, c.y}); ++y) {
-            for (int x = std::min({a.x, b.x, c.x}); x <= std::max({a.x, b.x, c.x}); ++x) {
-                const double u = (double(x - a.x) * (c.y - a.y) - double(c.x - a.x) * (y - a.y)) / area;
-                const double v = (double(b.x - a.x) * (y - a.y) - double(x - a.x) * (b.y - a.y)) / area;
-                if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) continue;
-                heights[grid.index(x, y)] =
-                    t.world[0].z + u * (t.world[1].z - t.world[0].z) + v * (t.world[2].z - t.world[0].z);
-            }
-        }
-    }
+    for (const DrawnTriangle& t : triangles)
+        for_each_sample(t,
+                        [&](int x, int y, const glm::dvec3& point) { heights[grid.index(x, y)] = point.z; });
     return heights;
 }
 
