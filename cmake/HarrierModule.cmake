@@ -1,5 +1,6 @@
 # One function for every folder of the house: a static library with the project's flags, and a target that
-# compiles each of its headers alone, so that a header never leans on what its includer happened to include.
+# compiles alone each header that no source includes first, so that a header never leans on what its includer happened to
+# include (sources include their own header first: tests/tooling/shape.py).
 
 add_library(harrier_flags INTERFACE)
 target_include_directories(harrier_flags INTERFACE ${CMAKE_SOURCE_DIR})
@@ -26,6 +27,10 @@ function(harrier_module name)
 
     set(probes)
     foreach(header ${ARG_HEADERS})
+        string(REGEX REPLACE "\\.h$" ".cpp" own_source ${header})
+        if(EXISTS ${own_source})
+            continue()
+        endif()
         cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE from_root)
         string(MAKE_C_IDENTIFIER ${from_root} id)
         set(probe ${CMAKE_BINARY_DIR}/headers/${id}.cpp)
