@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lod/base/check.h"
+#include "lod/progressive/part_breadth.h"
 
 namespace lod {
 namespace {
@@ -62,14 +63,17 @@ void index_further_vertices(ProgressiveMesh& mesh) {
 void gather_bounds(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
     mesh.bounds.resize(h.collapse_count());
+    std::vector<double> breadths_m = breadths_of_leaves(h);  // of all nodes, in the end
     for (uint32_t collapse = 0; collapse < h.collapse_count(); ++collapse) {
         const NodeId node = h.leaf_count + collapse;
         const glm::vec3& centre = h.centre[node];
+        breadths_m.push_back(breadths_m[h.children[collapse][0]]);
+        const double seen_m = seen_error_m(double(h.error_m[node]), breadths_m[node]);
         // The few roundings of the metric (sight_metric.h).
         const float rounding = (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) * 0x1p-22f;
         mesh.bounds[collapse] = {.centre = centre,
                                  .radius_m = (h.radius_m[node] + rounding) * (1.0f + 0x1p-20f),
-                                 .error_m = h.error_m[node],
+                                 .error_m = static_cast<float>(seen_m) * (1.0f + 0x1p-20f),
                                  .cone_axis = h.cone_axis[node],
                                  .cone_cos = h.cone_cos[node]};
     }

@@ -17,7 +17,7 @@ namespace lod {
 struct NodeBound {
     glm::vec3 centre{0.0f};
     float radius_m = 0.0f;  ///< rounded up
-    float error_m = 0.0f;
+    float error_m = 0.0f;   ///< proved, and more where it is seen more (part_breadth.h)
     glm::vec3 cone_axis{0.0f};
     float cone_cos = -1.0f;  ///< -1: no cone
 };
