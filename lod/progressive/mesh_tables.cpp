@@ -29,6 +29,32 @@ void index_leaf_corners(ProgressiveMesh& mesh) {
     }
 }
 
+/// The lists of each collapse, side by side; the hierarchy gives them up.
+void gather_lists(ProgressiveMesh& mesh) {
+    VertexHierarchy& h = mesh.hierarchy;
+    mesh.lists.reserve(3 * h.kept.size() + h.removed.size());
+    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
+        const uint32_t begin = h.kept_begin[2 * k], middle = h.kept_begin[2 * k + 1],
+                       end = h.kept_begin[2 * k + 2];
+        const NodeId node = h.leaf_count + k;
+        const auto [a, b] = h.children[k];
+        mesh.heads.push_back({.children = h.children[k],
+                              .parent = h.parent[node],
+                              .begin = static_cast<uint32_t>(mesh.lists.size()),
+                              .kept_count = {middle - begin, end - middle},
+                              .removed_count = h.removed_begin[k + 1] - h.removed_begin[k],
+                              .way_m = std::max(glm::distance(h.position[a], h.position[node]),
+                                                glm::distance(h.position[b], h.position[node]))});
+        for (uint32_t i = begin; i < end; ++i)
+            mesh.lists.push_back(h.kept[i]);
+        for (uint32_t i = h.removed_begin[k]; i < h.removed_begin[k + 1]; ++i)
+            mesh.lists.push_back(h.removed[i]);
+        for (uint32_t i = begin; i < end; ++i)
+            mesh.lists.insert(mesh.lists.end(), h.kept_vertex[i].begin(), h.kept_vertex[i].end());
+    }
+    h.kept_begin = {}, h.kept = {}, h.kept_vertex = {}, h.removed_begin = {}, h.removed = {};
+}
+
 /// All collapses in their order: what each triangle ends as, and by whom.
 void replay(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
@@ -39,10 +65,11 @@ void replay(ProgressiveMesh& mesh) {
         const NodeId node = h.leaf_count + collapse;
         for (uint32_t triangle : mesh.removed(collapse))
             mesh.remover[triangle] = node;
-        for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i) {
-            const CornerId corner = h.kept[i];
+        const VertexId* shown = mesh.kept_vertices(collapse);
+        for (CornerId corner : mesh.star(node)) {
             mesh.last_corners[corner / 3][corner % 3] = node;
-            mesh.last_vertices[corner / 3][corner % 3] = h.kept_vertex[i][1];
+            mesh.last_vertices[corner / 3][corner % 3] = shown[1];
+            shown += 2;
         }
     }
 }
@@ -107,6 +134,7 @@ ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass) 
     CHECK(h.kept_vertex.size() == h.kept.size() && h.vertex_count() >= h.node_count());
     index_leaf_corners(mesh);
     index_further_vertices(mesh);
+    gather_lists(mesh);
     replay(mesh);
     gather_bounds(mesh);
     enclose(mesh);
