@@ -15,6 +15,7 @@ void MeshBody::drop_glide(NodeId node) {
 
 /// How far the children are shown from their node, the farther one.
 float MeshBody::way_m(uint32_t record) const {
+    if (glides_.all().empty()) return mesh().heads[record].way_m;
     const std::vector<glm::vec3>& position = mesh().hierarchy.position;
     const auto [a, b] = mesh().hierarchy.children[record];
     const glm::vec3 place = position[node_of(record)], to_a = position[a] + glides_.displacement_m(a) - place,

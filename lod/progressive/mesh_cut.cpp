@@ -10,44 +10,27 @@
 namespace lod {
 
 MeshCut::MeshCut(const ProgressiveMesh& mesh)
-    : mesh_(&mesh),
-      corners_(mesh.triangle_count()),
-      parents_(mesh.triangle_count()),
-      vertices_(mesh.last_vertices),
-      is_touched_(mesh.triangle_count(), 0),
-      is_active_(mesh.hierarchy.node_count(), 0) {
+    : mesh_(&mesh), triangles_(mesh.triangle_count()), is_active_(mesh.hierarchy.node_count(), 0) {
     CHECK(mesh.hierarchy.node_count() < kNoParent);
     touched_.reserve(mesh.triangle_count());
     for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-        std::copy_n(mesh.last_corners[triangle].begin(), 3, corners_[triangle].begin());
-        if (mesh.remover[triangle] != kNoNode) {
-            hide(triangle);
-        } else {
-            draw(triangle);
-            touch(triangle);
-        }
+        std::copy_n(mesh.last_corners[triangle].begin(), 3, triangles_[triangle].corners.begin());
+        triangles_[triangle].vertices = mesh.last_vertices[triangle];
+        auto& [corners, parents, vertices, is_touched] = triangles_[triangle];
+        parents = {parent_of(corners[0]), parent_of(corners[1]), parent_of(corners[2]), kNoParent};
+        corners[3] = mesh.remover[triangle] != kNoNode ? 1 : 0;
+        if (corners[3] == 0) touch(triangle);
     }
     drawn_count_ = static_cast<uint32_t>(touched_.size());
     for (NodeId root : mesh.roots)
         is_active_[root] = 1;
 }
 
-void MeshCut::draw(uint32_t triangle) {
-    const Four& corners = corners_[triangle];
-    parents_[triangle] = {parent_of(corners[0]), parent_of(corners[1]), parent_of(corners[2]), kNoParent};
-    corners_[triangle][3] = 0;
-}
-
-void MeshCut::hide(uint32_t triangle) {
-    parents_[triangle].fill(kNoParent);
-    corners_[triangle][3] = 1;
-}
-
 NodeId MeshCut::split_blocker(NodeId node) const {
     Int4 largest = Int4{} + static_cast<int32_t>(node);
     largest[3] = 0;
     for (CornerId corner : mesh_->star(node)) {
-        const Int4 corners = std::bit_cast<Int4>(corners_[corner / 3]);
+        const Int4 corners = std::bit_cast<Int4>(triangles_[corner / 3].corners);
         largest = corners > largest ? corners : largest;
     }
     if (largest[3] != 0) return split_blocker_of_torn(node);
@@ -61,7 +44,7 @@ NodeId MeshCut::split_blocker_of_torn(NodeId node) const {
     for (CornerId corner : mesh_->star(node)) {
         const uint32_t triangle = corner / 3;
         if (is_drawn(triangle)) {
-            const Four& corners = corners_[triangle];
+            const Four& corners = triangles_[triangle].corners;
             youngest = std::max({youngest, corners[0], corners[1], corners[2]});
             continue;
         }
@@ -73,82 +56,84 @@ NodeId MeshCut::split_blocker_of_torn(NodeId node) const {
     return youngest == node ? kNoNode : youngest;
 }
 
+/// The triangles that the build saw around the collapse are enough to ask. If none of their corners has an older parent,
+/// all of them are as they were then, and no other triangle can be in the star.
 NodeId MeshCut::collapse_blocker(NodeId node) const {
     Int4 oldest = Int4{} + static_cast<int32_t>(node);  // the parent of both children themselves
-    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
-        for (CornerId corner : mesh_->star(child)) {
-            const Int4 parents = std::bit_cast<Int4>(parents_[corner / 3]);
-            oldest = parents < oldest ? parents : oldest;
-        }
-    }
+    const uint32_t collapse = mesh_->collapse_of(node);
+    const auto take = [&](uint32_t triangle) {
+        const Int4 parents = std::bit_cast<Int4>(triangles_[triangle].parents);
+        oldest = parents < oldest ? parents : oldest;
+    };
+    for (CornerId corner : mesh_->star(node))
+        take(corner / 3);
+    for (uint32_t triangle : mesh_->removed(collapse))
+        take(triangle);
     const auto first = static_cast<NodeId>(std::min({oldest[0], oldest[1], oldest[2]}));
     return first == node ? kNoNode : first;
 }
 
 void MeshCut::expect_vsplit(NodeId node) const {
-    for (CornerId corner : mesh_->star(node)) {
-        __builtin_prefetch(&corners_[corner / 3], 1);
-        __builtin_prefetch(&parents_[corner / 3], 1);
-    }
-    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
+    for (CornerId corner : mesh_->star(node))
+        __builtin_prefetch(&triangles_[corner / 3], 1);
+    for (NodeId child : mesh_->heads[mesh_->collapse_of(node)].children) {
         if (!mesh_->is_leaf(child)) __builtin_prefetch(&mesh_->bounds[mesh_->collapse_of(child)]);
         __builtin_prefetch(&mesh_->hierarchy.position[child]);
     }
 }
 
 void MeshCut::expect_ecol(NodeId node) const {
-    for (NodeId child : mesh_->hierarchy.children[mesh_->collapse_of(node)]) {
-        for (CornerId corner : mesh_->star(child)) {
-            __builtin_prefetch(&parents_[corner / 3], 1);
-            __builtin_prefetch(&corners_[corner / 3], 1);
-        }
-        __builtin_prefetch(&mesh_->hierarchy.position[child]);
-    }
+    for (CornerId corner : mesh_->star(node))
+        __builtin_prefetch(&triangles_[corner / 3], 1);
+    for (uint32_t triangle : mesh_->removed(mesh_->collapse_of(node)))
+        __builtin_prefetch(&triangles_[triangle], 1);
 }
 
 void MeshCut::vsplit(NodeId node) {
     DCHECK(is_active(node) && split_blocker(node) == kNoNode);
     const uint32_t collapse = mesh_->collapse_of(node);
-    const auto& children = mesh_->hierarchy.children[collapse];
+    const CollapseHead& head = mesh_->heads[collapse];
+    const VertexId* shown = mesh_->kept_vertices(collapse);
     for (uint32_t child = 0; child < 2; ++child) {
-        const std::span<const CornerId> kept = mesh_->kept(collapse, child);
-        const std::span<const std::array<VertexId, 2>> shown = mesh_->kept_vertices(collapse, child);
-        for (size_t i = 0; i < kept.size(); ++i)
-            show(kept[i], children[child], node, shown[i][0]);
-        is_active_[children[child]] = 1;
+        for (CornerId corner : mesh_->kept(collapse, child)) {
+            show(corner, head.children[child], node, shown[0]);
+            shown += 2;
+        }
+        is_active_[head.children[child]] = 1;
     }
-    const std::span<const uint32_t> removed = mesh_->removed(collapse);
-    for (uint32_t triangle : removed) {
-        draw(triangle);
+    for (uint32_t triangle : mesh_->removed(collapse)) {
+        triangles_[triangle].corners[3] = 0;
         touch(triangle);
     }
     is_active_[node] = 0;
-    drawn_count_ += static_cast<uint32_t>(removed.size());
+    drawn_count_ += head.removed_count;
     hash_ ^= mix64(node);
 }
 
 void MeshCut::ecol(NodeId node) {
     DCHECK(are_children_active(node) && collapse_blocker(node) == kNoNode);
     const uint32_t collapse = mesh_->collapse_of(node);
-    const VertexHierarchy& h = mesh_->hierarchy;
-    const NodeId parent = parent_of(node);
-    for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i)
-        show(h.kept[i], node, parent, h.kept_vertex[i][1]);
-    const std::span<const uint32_t> removed = mesh_->removed(collapse);
-    for (uint32_t triangle : removed) {
-        hide(triangle);
+    const CollapseHead& head = mesh_->heads[collapse];
+    const NodeId parent = std::min(head.parent, kNoParent);
+    const VertexId* shown = mesh_->kept_vertices(collapse);
+    for (CornerId corner : mesh_->star(node)) {
+        show(corner, node, parent, shown[1]);
+        shown += 2;
+    }
+    for (uint32_t triangle : mesh_->removed(collapse)) {
+        triangles_[triangle].corners[3] = 1;
         touch(triangle);
     }
-    for (NodeId child : h.children[collapse])
+    for (NodeId child : head.children)
         is_active_[child] = 0;
     is_active_[node] = 1;
-    drawn_count_ -= static_cast<uint32_t>(removed.size());
+    drawn_count_ -= head.removed_count;
     hash_ ^= mix64(node);
 }
 
 void MeshCut::forget_touched() {
     for (uint32_t triangle : touched_)
-        is_touched_[triangle] = 0;
+        triangles_[triangle].is_touched = 0;
     touched_.clear();
 }
 
@@ -176,7 +161,7 @@ std::string MeshCut::validate() const {
         const auto at = corners(t);
         if (at[0] != a || at[1] != b || at[2] != c) return name + " has a wrong corner";
         for (size_t k = 0; k < 3; ++k) {
-            if (parents_[t][k] != parent_of(at[k])) return name + " has a wrong parent";
+            if (triangles_[t].parents[k] != parent_of(at[k])) return name + " has a wrong parent";
         }
         for (size_t i = 0; i < 3; ++i) {
             if (h.vertex_node[vertices(t)[i]] != at[i]) return name + " shows a vertex of another node";

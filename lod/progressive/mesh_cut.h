@@ -30,14 +30,14 @@ class MeshCut {
 
     const ProgressiveMesh& mesh() const { return *mesh_; }
     bool is_active(NodeId node) const { return is_active_[node] != 0; }
-    bool is_drawn(uint32_t triangle) const { return corners_[triangle][3] == 0; }
+    bool is_drawn(uint32_t triangle) const { return triangles_[triangle].corners[3] == 0; }
     /// Corners of a drawn triangle.
     std::span<const NodeId, 3> corners(uint32_t triangle) const {
-        return std::span<const NodeId, 3>(corners_[triangle].data(), 3);
+        return std::span<const NodeId, 3>(triangles_[triangle].corners.data(), 3);
     }
     /// What those corners show.
     std::span<const VertexId, 3> vertices(uint32_t triangle) const {
-        return std::span<const VertexId, 3>(vertices_[triangle]);
+        return std::span<const VertexId, 3>(triangles_[triangle].vertices);
     }
     uint32_t triangle_count() const { return drawn_count_; }
     /// Equal cuts have equal hashes.
@@ -50,7 +50,7 @@ class MeshCut {
     /// @param node  both children active
     NodeId collapse_blocker(NodeId node) const;
     bool are_children_active(NodeId node) const {
-        const auto& children = mesh_->hierarchy.children[mesh_->collapse_of(node)];
+        const auto& children = mesh_->heads[mesh_->collapse_of(node)].children;
         return is_active(children[0]) && is_active(children[1]);
     }
 
@@ -73,30 +73,35 @@ class MeshCut {
     static constexpr NodeId kNoParent = 0x7fffffffu;  ///< younger than any node, also as a signed number
     using Four = std::array<NodeId, 4>;
 
+    /// All that an operation reads and writes of a triangle, on one line of the cache: a star's triangles lie anywhere. A
+    /// star is read four numbers at a time, without asking which triangles are drawn.
+    struct alignas(64) Triangle {
+        Four corners{};  ///< of one not drawn: when it last was; the fourth: whether it is not drawn
+        Four parents{};  ///< of the corners; the fourth: kNoParent
+        std::array<VertexId, 3> vertices{};
+        uint32_t is_touched = 0;
+    };
+    static_assert(sizeof(Triangle) == 64);
+
     NodeId parent_of(NodeId node) const { return std::min(mesh_->hierarchy.parent[node], kNoParent); }
 
     void show(CornerId corner, NodeId node, NodeId parent, VertexId vertex) {
-        const uint32_t triangle = corner / 3;
-        corners_[triangle][corner % 3] = node;
-        parents_[triangle][corner % 3] = parent;
-        vertices_[triangle][corner % 3] = vertex;
-        touch(triangle);
+        Triangle& triangle = triangles_[corner / 3];
+        triangle.corners[corner % 3] = node;
+        triangle.parents[corner % 3] = parent;
+        triangle.vertices[corner % 3] = vertex;
+        touch(corner / 3);
     }
     NodeId split_blocker_of_torn(NodeId node) const;
-    void draw(uint32_t triangle);
-    void hide(uint32_t triangle);
     void touch(uint32_t triangle) {
-        if (is_touched_[triangle]) return;
-        is_touched_[triangle] = 1;
+        if (triangles_[triangle].is_touched != 0) return;
+        triangles_[triangle].is_touched = 1;
         touched_.push_back(triangle);
     }
 
     const ProgressiveMesh* mesh_;
-    // [triangles]; a star is read four numbers at a time, without asking which triangles are drawn.
-    std::vector<Four> corners_;  ///< of one not drawn: when it last was; the fourth: whether it is not drawn
-    std::vector<Four> parents_;  ///< of the corners; all kNoParent when not drawn; the fourth: kNoParent
-    std::vector<std::array<VertexId, 3>> vertices_;
-    std::vector<uint8_t> is_touched_, is_active_;
+    std::vector<Triangle> triangles_;
+    std::vector<uint8_t> is_active_;  ///< [nodes]
     std::vector<uint32_t> touched_;
     uint32_t drawn_count_ = 0;
     uint64_t hash_ = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lod/base/check.h"
+#include "lod/progressive/part_breadth.h"
 
 namespace lod {
 namespace {
@@ -28,6 +29,32 @@ void index_leaf_corners(ProgressiveMesh& mesh) {
     }
 }
 
+/// The lists of each collapse, side by side; the hierarchy gives them up.
+void gather_lists(ProgressiveMesh& mesh) {
+    VertexHierarchy& h = mesh.hierarchy;
+    mesh.lists.reserve(3 * h.kept.size() + h.removed.size());
+    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
+        const uint32_t begin = h.kept_begin[2 * k], middle = h.kept_begin[2 * k + 1],
+                       end = h.kept_begin[2 * k + 2];
+        const NodeId node = h.leaf_count + k;
+        const auto [a, b] = h.children[k];
+        mesh.heads.push_back({.children = h.children[k],
+                              .parent = h.parent[node],
+                              .begin = static_cast<uint32_t>(mesh.lists.size()),
+                              .kept_count = {middle - begin, end - middle},
+                              .removed_count = h.removed_begin[k + 1] - h.removed_begin[k],
+                              .way_m = std::max(glm::distance(h.position[a], h.position[node]),
+                                                glm::distance(h.position[b], h.position[node]))});
+        for (uint32_t i = begin; i < end; ++i)
+            mesh.lists.push_back(h.kept[i]);
+        for (uint32_t i = h.removed_begin[k]; i < h.removed_begin[k + 1]; ++i)
+            mesh.lists.push_back(h.removed[i]);
+        for (uint32_t i = begin; i < end; ++i)
+            mesh.lists.insert(mesh.lists.end(), h.kept_vertex[i].begin(), h.kept_vertex[i].end());
+    }
+    h.kept_begin = {}, h.kept = {}, h.kept_vertex = {}, h.removed_begin = {}, h.removed = {};
+}
+
 /// All collapses in their order: what each triangle ends as, and by whom.
 void replay(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
@@ -38,10 +65,11 @@ void replay(ProgressiveMesh& mesh) {
         const NodeId node = h.leaf_count + collapse;
         for (uint32_t triangle : mesh.removed(collapse))
             mesh.remover[triangle] = node;
-        for (uint32_t i = h.kept_begin[2 * collapse]; i < h.kept_begin[2 * collapse + 2]; ++i) {
-            const CornerId corner = h.kept[i];
+        const VertexId* shown = mesh.kept_vertices(collapse);
+        for (CornerId corner : mesh.star(node)) {
             mesh.last_corners[corner / 3][corner % 3] = node;
-            mesh.last_vertices[corner / 3][corner % 3] = h.kept_vertex[i][1];
+            mesh.last_vertices[corner / 3][corner % 3] = shown[1];
+            shown += 2;
         }
     }
 }
@@ -62,14 +90,17 @@ void index_further_vertices(ProgressiveMesh& mesh) {
 void gather_bounds(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
     mesh.bounds.resize(h.collapse_count());
+    std::vector<double> breadths_m = breadths_of_leaves(h);  // of all nodes, in the end
     for (uint32_t collapse = 0; collapse < h.collapse_count(); ++collapse) {
         const NodeId node = h.leaf_count + collapse;
         const glm::vec3& centre = h.centre[node];
+        breadths_m.push_back(breadths_m[h.children[collapse][0]]);
+        const double seen_m = seen_error_m(double(h.error_m[node]), breadths_m[node]);
         // The few roundings of the metric (sight_metric.h).
         const float rounding = (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) * 0x1p-22f;
         mesh.bounds[collapse] = {.centre = centre,
                                  .radius_m = (h.radius_m[node] + rounding) * (1.0f + 0x1p-20f),
-                                 .error_m = h.error_m[node],
+                                 .error_m = static_cast<float>(seen_m) * (1.0f + 0x1p-20f),
                                  .cone_axis = h.cone_axis[node],
                                  .cone_cos = h.cone_cos[node]};
     }
@@ -103,6 +134,7 @@ ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass) 
     CHECK(h.kept_vertex.size() == h.kept.size() && h.vertex_count() >= h.node_count());
     index_leaf_corners(mesh);
     index_further_vertices(mesh);
+    gather_lists(mesh);
     replay(mesh);
     gather_bounds(mesh);
     enclose(mesh);

@@ -17,15 +17,26 @@ namespace lod {
 struct NodeBound {
     glm::vec3 centre{0.0f};
     float radius_m = 0.0f;  ///< rounded up
-    float error_m = 0.0f;
+    float error_m = 0.0f;   ///< proved, and more where it is seen more (part_breadth.h)
     glm::vec3 cone_axis{0.0f};
     float cone_cos = -1.0f;  ///< -1: no cone
 };
 
+/// What an operation reads of a collapse first, before its lists; 32 bytes.
+struct CollapseHead {
+    std::array<NodeId, 2> children{};
+    NodeId parent = kNoNode;               ///< of its node
+    uint32_t begin = 0;                    ///< of its lists in `lists`
+    std::array<uint32_t, 2> kept_count{};  ///< corners of its children
+    uint32_t removed_count = 0;            ///< triangles
+    float way_m = 0.0f;                    ///< of its farther child to its place
+};
+static_assert(sizeof(CollapseHead) == 32);
+
 /// A hierarchy and its tables; never changes while a front looks at it.
 struct ProgressiveMesh {
-    VertexHierarchy hierarchy;
-    bool is_glass = false;  ///< all of it, or none
+    VertexHierarchy hierarchy;  ///< without kept, kept_vertex and removed: `lists` holds them
+    bool is_glass = false;      ///< all of it, or none
 
     std::vector<uint32_t> leaf_begin;    ///< [leaves + 1] into leaf_corners
     std::vector<CornerId> leaf_corners;  ///< corners of the full mesh, by their vertex
@@ -36,6 +47,8 @@ struct ProgressiveMesh {
     std::vector<uint32_t> further_begin;     ///< [nodes + 1] into further_vertices
     std::vector<VertexId> further_vertices;  ///< what a node shows beside the vertex with its own id
     std::vector<NodeBound> bounds;           ///< [collapses]
+    std::vector<CollapseHead> heads;         ///< [collapses]
+    std::vector<uint32_t> lists;             ///< of each collapse, side by side: kept, removed, kept_vertices
     std::vector<NodeId> roots;               ///< nodes without parent, rising
     glm::dvec3 centre{0.0};                  ///< sphere around every node's position
     double radius_m = 0.0;
@@ -47,18 +60,18 @@ struct ProgressiveMesh {
 
     /// Triangles that hold both children of a collapse: PAT.
     std::span<const uint32_t> removed(uint32_t collapse) const {
-        const uint32_t begin = hierarchy.removed_begin[collapse];
-        return {hierarchy.removed.data() + begin, hierarchy.removed_begin[collapse + 1] - begin};
+        const CollapseHead& head = heads[collapse];
+        return {lists.data() + head.begin + head.kept_count[0] + head.kept_count[1], head.removed_count};
     }
     /// Corners that a collapse hands from one of its children to its node: half a CAT.
     std::span<const CornerId> kept(uint32_t collapse, uint32_t child) const {
-        const uint32_t begin = hierarchy.kept_begin[2 * collapse + child];
-        return {hierarchy.kept.data() + begin, hierarchy.kept_begin[2 * collapse + child + 1] - begin};
+        const CollapseHead& head = heads[collapse];
+        return {lists.data() + head.begin + (child == 0 ? 0 : head.kept_count[0]), head.kept_count[child]};
     }
-    /// What those corners show before the collapse and after.
-    std::span<const std::array<VertexId, 2>> kept_vertices(uint32_t collapse, uint32_t child) const {
-        const uint32_t begin = hierarchy.kept_begin[2 * collapse + child];
-        return {hierarchy.kept_vertex.data() + begin, hierarchy.kept_begin[2 * collapse + child + 1] - begin};
+    /// What its kept corners show, those of both children in turn: two numbers each, before the collapse and after.
+    const VertexId* kept_vertices(uint32_t collapse) const {
+        const CollapseHead& head = heads[collapse];
+        return lists.data() + head.begin + head.kept_count[0] + head.kept_count[1] + head.removed_count;
     }
     /// What a node shows beside the vertex with its own id.
     std::span<const VertexId> further(NodeId node) const {
@@ -69,8 +82,8 @@ struct ProgressiveMesh {
         if (is_leaf(node)) {
             return {leaf_corners.data() + leaf_begin[node], leaf_begin[node + 1] - leaf_begin[node]};
         }
-        const uint32_t begin = hierarchy.kept_begin[2 * collapse_of(node)];
-        return {hierarchy.kept.data() + begin, hierarchy.kept_begin[2 * collapse_of(node) + 2] - begin};
+        const CollapseHead& head = heads[collapse_of(node)];
+        return {lists.data() + head.begin, head.kept_count[0] + head.kept_count[1]};
     }
 };
 

@@ -30,6 +30,18 @@ class Coarsening {
         }
     }
 
+    /// Undoes the youngest collapse that was done, may be undone first, and brings no more than `room` triangles.
+    /// @returns  how many it brought; 0: there is none
+    uint64_t give_back(uint64_t room) {
+        for (uint32_t k = h_.collapse_count(); k-- > 0;) {
+            const uint64_t removed = h_.removed_begin[k + 1] - h_.removed_begin[k];
+            if (!is_done_[k] || removed > room || !is_split_legal(k)) continue;
+            split(k);
+            return removed;
+        }
+        return 0;
+    }
+
     StaticMesh mesh() const {
         StaticMesh out;
         for (size_t t = 0; t < is_removed_.size(); ++t) {
@@ -58,6 +70,36 @@ class Coarsening {
         for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i)
             if (!are_corners_old(h_.kept[i] / 3)) return false;
         return true;
+    }
+
+    bool is_gone(NodeId node) const { return h_.parent[node] != kNoNode && is_active(h_.parent[node]); }
+
+    /// id(p) > all neighbours; stricter where a triangle of the star is gone or leads to a node that is.
+    bool is_split_legal(uint32_t k) const {
+        const NodeId node = h_.leaf_count + k;
+        if (is_gone(node)) return false;
+        for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i) {
+            const VertexId* shown = &shown_[h_.kept[i] / 3 * 3];
+            const bool is_young =
+                std::any_of(shown, shown + 3, [&](VertexId vertex) { return h_.vertex_node[vertex] > node; });
+            if (is_removed_[h_.kept[i] / 3] || is_young) return false;
+        }
+        for (uint32_t i = h_.removed_begin[k]; i < h_.removed_begin[k + 1]; ++i) {
+            for (CornerId corner = 3 * h_.removed[i]; corner < 3 * h_.removed[i] + 3; ++corner) {
+                const NodeId at = h_.vertex_node[shown_[corner]];
+                if (h_.parent[at] != node && is_gone(at)) return false;
+            }
+        }
+        return true;
+    }
+
+    void split(uint32_t k) {
+        is_done_[k] = 0;
+        for (uint32_t i = h_.removed_begin[k]; i < h_.removed_begin[k + 1]; ++i)
+            is_removed_[h_.removed[i]] = 0;
+        left_ += h_.removed_begin[k + 1] - h_.removed_begin[k];
+        for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i)
+            shown_[h_.kept[i]] = h_.kept_vertex[i][0];
     }
 
     void collapse(uint32_t k) {
@@ -126,6 +168,14 @@ std::vector<StaticMesh> meshes_of_size(std::span<const ScaledHierarchy> hierarch
             const uint64_t enough = triangles > others ? triangles - others : 0;
             states[i].run(*least / hierarchies[i].scale, enough, may_overshoot);
             sum = others + states[i].triangles();
+        }
+    }
+    // Where the last collapses took two at a time, one that took less may stay undone.
+    for (Coarsening& state : states) {
+        while (sum < triangles) {
+            const uint64_t brought = state.give_back(triangles - sum);
+            if (brought == 0) break;
+            sum += brought;
         }
     }
     std::vector<StaticMesh> meshes;

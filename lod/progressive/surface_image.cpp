@@ -167,9 +167,11 @@ void SurfaceImage::replace_star(uint32_t k) {
         mesh_.set_node(h_.kept[i], p_);
     mesh_.fan_at(h_.kept[begin], fan_);
     CHECK(fan_.corners.size() == end - begin);
+    sectors_.clear();
     for (size_t i = 0; i < fan_.corners.size(); ++i) {
         const CornerId corner = fan_.corners[i];
         sector_of_[corner / 3] = static_cast<uint32_t>(i);
+        sectors_.push_back(coarse_triangle(corner));
         corner_of_[p_] = corner;
         corner_of_[mesh_.node(next_corner(corner))] = next_corner(corner);
         corner_of_[mesh_.node(prev_corner(corner))] = prev_corner(corner);
@@ -216,9 +218,9 @@ void SurfaceImage::touch_moved() {
 /// Downhill first; where that ends farther off than anything before, every sector is tried.
 void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
     const size_t count = fan_.corners.size();
-    double least2 = squared_distance(place, coarse_triangle(fan_.corners[member.from]));
+    double least2 = squared_distance(place, sectors_[member.from]);
     const auto attempt = [&](size_t sector) {
-        const double apart2 = squared_distance(place, coarse_triangle(fan_.corners[sector]));
+        const double apart2 = squared_distance(place, sectors_[sector]);
         if (apart2 >= least2) return false;
         least2 = apart2;
         member.to = static_cast<uint32_t>(sector);

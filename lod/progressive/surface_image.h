@@ -133,6 +133,7 @@ class SurfaceImage {
     // The collapse at hand.
     NodeId p_ = 0, centre_ = 0, other_ = 0;
     Fan fan_;
+    std::vector<Triangle> sectors_;     // of the fan: the new triangles
     std::vector<uint32_t> star_;        // old triangles
     std::vector<uint32_t> removed_to_;  // [2] per removed triangle: where its vertices go
     std::vector<Member> members_;

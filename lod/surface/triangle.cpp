@@ -17,16 +17,6 @@ glm::dvec3 nearest_on_edges(const glm::dvec3& point, const Triangle& t) {
 
 }  // namespace
 
-glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 along = b - a;
-    const double length2 = glm::dot(along, along);
-    if (!(length2 > 0.0)) return a;
-    const double share = glm::dot(point - a, along) / length2;
-    if (share <= 0.0) return a;
-    if (share >= 1.0) return b;
-    return a + share * along;
-}
-
 glm::dvec3 nearest_on_triangle(const glm::dvec3& point, const Triangle& t) {
     const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a;
     const glm::dvec3 ap = point - t.a;

@@ -25,7 +25,15 @@ struct Soup {
 };
 
 /// The nearest point of a segment. Exact to rounding for segments of any length, zero included.
-glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b);
+inline glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 along = b - a;
+    const double length2 = glm::dot(along, along);
+    if (!(length2 > 0.0)) return a;
+    const double share = glm::dot(point - a, along) / length2;
+    if (share <= 0.0) return a;
+    if (share >= 1.0) return b;
+    return a + share * along;
+}
 
 /// The nearest point of a triangle. Whatever rounding does to its choice, what it returns lies in the triangle, so
 /// its distance is never less than the true one but for the rounding of one subtraction.

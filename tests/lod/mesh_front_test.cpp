@@ -224,7 +224,7 @@ TEST(MeshFront, SilhouettesAreFinerThanTheRest) {
         MeshFront front(lod::Module::kInstruments, std::move(meshes), std::vector<lod::MeshPlacement>(1),
                         options(0.0));
         const glm::dvec3 way = from_side ? glm::dvec3(0.0, -1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-        converge(front, view_from(glm::dvec3(2.0, 0.2, 0.0) + 40.0 * way), 0.0);
+        converge(front, view_from(glm::dvec3(2.0, 0.2, 0.0) + 160.0 * way), 0.0);
         triangles[from_side] = front.triangles();
         EXPECT_LE(front.error_px(), 1.0);
         EXPECT_EQ(front.validate(), "");
