@@ -10,25 +10,6 @@
 namespace lod {
 namespace {
 
-void index_leaf_corners(ProgressiveMesh& mesh) {
-    const VertexHierarchy& h = mesh.hierarchy;
-    mesh.leaf_begin.assign(h.leaf_count + 1, 0);
-    for (const auto& triangle : h.triangles) {
-        for (NodeId leaf : triangle) {
-            CHECK(leaf < h.leaf_count);
-            ++mesh.leaf_begin[leaf + 1];
-        }
-    }
-    for (size_t leaf = 0; leaf < h.leaf_count; ++leaf)
-        mesh.leaf_begin[leaf + 1] += mesh.leaf_begin[leaf];
-    mesh.leaf_corners.resize(3 * h.triangles.size());
-    std::vector<uint32_t> next(mesh.leaf_begin.begin(), mesh.leaf_begin.end() - 1);
-    for (size_t t = 0; t < h.triangles.size(); ++t) {
-        for (size_t corner = 0; corner < 3; ++corner)
-            mesh.leaf_corners[next[h.triangles[t][corner]]++] = static_cast<CornerId>(3 * t + corner);
-    }
-}
-
 /// The lists of each collapse, side by side; the hierarchy gives them up.
 void gather_lists(ProgressiveMesh& mesh) {
     VertexHierarchy& h = mesh.hierarchy;
@@ -132,7 +113,8 @@ ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass) 
     CHECK(h.kept_begin.size() == 2 * size_t{h.collapse_count()} + 1);
     CHECK(h.removed_begin.size() == size_t{h.collapse_count()} + 1);
     CHECK(h.kept_vertex.size() == h.kept.size() && h.vertex_count() >= h.node_count());
-    index_leaf_corners(mesh);
+    for (const auto& triangle : h.triangles)
+        CHECK(std::max({triangle[0], triangle[1], triangle[2]}) < h.leaf_count);
     index_further_vertices(mesh);
     gather_lists(mesh);
     replay(mesh);

@@ -38,8 +38,6 @@ struct ProgressiveMesh {
     VertexHierarchy hierarchy;  ///< without kept, kept_vertex and removed: `lists` holds them
     bool is_glass = false;      ///< all of it, or none
 
-    std::vector<uint32_t> leaf_begin;    ///< [leaves + 1] into leaf_corners
-    std::vector<CornerId> leaf_corners;  ///< corners of the full mesh, by their vertex
     std::vector<std::array<NodeId, 3>>
         last_corners;  ///< [triangles] before its removal, or of the coarsest mesh
     std::vector<std::array<VertexId, 3>> last_vertices;  ///< ... and what its corners show then
@@ -77,11 +75,8 @@ struct ProgressiveMesh {
     std::span<const VertexId> further(NodeId node) const {
         return {further_vertices.data() + further_begin[node], further_begin[node + 1] - further_begin[node]};
     }
-    /// The corners a node is born with.
+    /// The corners a node is born with, which must not be a leaf.
     std::span<const CornerId> star(NodeId node) const {
-        if (is_leaf(node)) {
-            return {leaf_corners.data() + leaf_begin[node], leaf_begin[node + 1] - leaf_begin[node]};
-        }
         const CollapseHead& head = heads[collapse_of(node)];
         return {lists.data() + head.begin, head.kept_count[0] + head.kept_count[1]};
     }

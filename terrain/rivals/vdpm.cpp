@@ -141,12 +141,10 @@ uint64_t bytes_of(const lod::ProgressiveMesh& mesh) {
     const lod::VertexHierarchy& h = mesh.hierarchy;
     return bytes_of(h.position) + bytes_of(h.parent) + bytes_of(h.children) + bytes_of(h.triangles) +
            bytes_of(h.vertex_node) + bytes_of(h.normal) + bytes_of(h.colour) + bytes_of(h.triangle_vertices) +
-           bytes_of(h.removed_begin) + bytes_of(h.removed) + bytes_of(h.kept_begin) + bytes_of(h.kept) +
-           bytes_of(h.kept_vertex) + bytes_of(h.error_m) + bytes_of(h.centre) + bytes_of(h.radius_m) +
-           bytes_of(h.cone_axis) + bytes_of(h.cone_cos) + bytes_of(mesh.leaf_begin) +
-           bytes_of(mesh.leaf_corners) + bytes_of(mesh.last_corners) + bytes_of(mesh.last_vertices) +
-           bytes_of(mesh.remover) + bytes_of(mesh.further_begin) + bytes_of(mesh.bounds) +
-           bytes_of(mesh.roots);
+           bytes_of(h.error_m) + bytes_of(h.centre) + bytes_of(h.radius_m) + bytes_of(h.cone_axis) +
+           bytes_of(h.cone_cos) + bytes_of(mesh.last_corners) + bytes_of(mesh.last_vertices) +
+           bytes_of(mesh.remover) + bytes_of(mesh.further_begin) + bytes_of(mesh.further_vertices) +
+           bytes_of(mesh.bounds) + bytes_of(mesh.heads) + bytes_of(mesh.lists) + bytes_of(mesh.roots);
 }
 
 }  // namespace
