@@ -25,6 +25,11 @@ ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
     add(kRootCluster);
 }
 
+void ClusterFront::stand_at(const ScenePlace& place) {
+    place_ = place;
+    views_.clear();  // what was seen was seen elsewhere
+}
+
 void ClusterFront::look_up_presence(CutRecord& record) {
     ++presence_lookups_;
     record.presence = presence_at(tree_, tree_.clusters[record.id].visibility, time_s_);

@@ -34,6 +34,9 @@ class ClusterFront final : public lod::Front {
     /// @param place  a rotation, orthonormal, and a finite origin
     ClusterFront(ClusterTree tree, const ScenePlace& place);
 
+    /// Moves the whole scene; the next frame sees everything anew. @param place  as for the constructor
+    void stand_at(const ScenePlace& place);
+
     /// @param time_s  of the schedule; any, clamped to [0, T]; NaN counts as 0
     void begin_frame(std::span<const lod::View> views, double time_s) override;
     double refine_error_px() override;

@@ -2,10 +2,9 @@
 
 namespace objects {
 
-uint32_t ClusterItems::instance_of(const Cluster& cluster, lod::DrawList& out) {
+uint32_t ClusterItems::instance_of(const Cluster& cluster, const data::ObjectPose& pose, lod::DrawList& out) {
     const bool is_scene = cluster.motion == kSceneFrame;
     if (is_scene && scene_instance_ != kNoInstance) return scene_instance_;
-    const data::ObjectPose pose = pose_of(tree_, cluster, time_s_);
     out.instances.push_back(lod::make_instance(
         view_.eye_world, view_.eye_from_world, place_.origin_world + place_.world_from_scene * pose.position,
         place_.world_from_scene * glm::mat3_cast(pose.rotation), lod::Module::kObjects));
@@ -14,19 +13,39 @@ uint32_t ClusterItems::instance_of(const Cluster& cluster, lod::DrawList& out) {
     return index;
 }
 
+void ClusterItems::add_spans(const ClusterGeometry& geometry, uint32_t instance, lod::DrawList& out) {
+    const uint32_t first = region_.first_index + geometry.first_index;
+    const auto base = static_cast<int32_t>(region_.first_vertex + geometry.first_vertex);
+    for (const IndexSpan& span : spans_) {
+        out.items.push_back({span.count, first + span.first, base, instance, false});
+        triangles_ += span.count / 3;
+    }
+    const uint32_t glass = geometry.glass_index_count, opaque = geometry.index_count - glass;
+    if (glass > 0) out.items.push_back({glass, first + opaque, base, instance, true});
+    triangles_ += glass / 3;
+}
+
 void ClusterItems::add(ClusterId id, lod::DrawList& out) {
     const Cluster& cluster = tree_.clusters[id];
     if (cluster.geometry == kNoGeometry) return;
     const ClusterGeometry& geometry = tree_.geometries[cluster.geometry];
+    const data::ObjectPose pose = pose_of(tree_, cluster, time_s_);
+    spans_.clear();
+    visible_spans(tree_, geometry, glm::conjugate(pose.rotation) * (sight_.eye_scene - pose.position),
+                  sight_.metric.near_m * sight_.metric.stretch, spans_);
+    if (!spans_.empty() || geometry.glass_index_count > 0)
+        add_spans(geometry, instance_of(cluster, pose, out), out);
+}
+
+void ClusterItems::add_whole(ClusterId id, lod::DrawList& out) {
+    const Cluster& cluster = tree_.clusters[id];
+    if (cluster.geometry == kNoGeometry) return;
+    const ClusterGeometry& geometry = tree_.geometries[cluster.geometry];
     if (geometry.index_count == 0) return;
-    const uint32_t instance = instance_of(cluster, out);
-    const uint32_t first = region_.first_index + geometry.first_index;
-    const auto base = static_cast<int32_t>(region_.first_vertex + geometry.first_vertex);
-    const uint32_t opaque = geometry.index_count - geometry.glass_index_count;
-    if (opaque > 0) out.items.push_back({opaque, first, base, instance, false});
-    if (geometry.glass_index_count > 0)
-        out.items.push_back({geometry.glass_index_count, first + opaque, base, instance, true});
-    triangles_ += geometry.index_count / 3;
+    spans_.clear();
+    if (geometry.index_count > geometry.glass_index_count)
+        spans_.push_back({0, geometry.index_count - geometry.glass_index_count});
+    add_spans(geometry, instance_of(cluster, pose_of(tree_, cluster, time_s_), out), out);
 }
 
 }  // namespace objects

@@ -36,12 +36,26 @@ inline constexpr uint32_t kSceneFrame = 0xffffffffu;  ///< geometry lies in the 
 inline constexpr uint32_t kNoObject = 0xffffffffu;    ///< no leaf
 inline constexpr float kNeverEnough_m = 1e30f;  ///< error of what cannot be drawn in place of its children
 
+/// Opaque triangles of a geometry that look about the same way; consecutive ranges make up all of them.
+/// Unless said otherwise a range may be seen from anywhere.
+struct FacingRange {
+    glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit; normals are no farther than spread_rad from it
+    float spread_rad = 4.0f;
+    float least_offset_m =
+        0.0f;  ///< no face's plane passes the geometry's centre nearer, along its normal; may be negative
+    uint32_t index_count = 0;
+};
+static_assert(sizeof(FacingRange) == 24);
+
 /// Ranges of ClusterTree::vertices and indices. Indices count from the geometry's first vertex; those of glass come
 /// last. A geometry without triangles is one of an object that has none.
 struct ClusterGeometry {
     uint32_t first_vertex = 0, vertex_count = 0;
-    uint32_t first_index = 0, index_count = 0;  ///< three a triangle, glass included
-    uint32_t glass_index_count = 0;             ///< the last so many
+    uint32_t first_index = 0, index_count = 0;    ///< three a triangle, glass included
+    uint32_t glass_index_count = 0;               ///< the last so many
+    uint32_t first_facing = 0, facing_count = 0;  ///< of ClusterTree::facings; none: seen from anywhere
+    glm::vec3 centre{0.0f};  ///< of a sphere that holds the vertices, when there are facings
+    float radius_m = 0.0f;
 };
 
 /// One node. Box and sphere are in the scene frame, but for a cluster that moves (`motion` has several keys): there
@@ -82,6 +96,7 @@ struct ClusterTree {
     std::vector<ClusterGeometry> geometries;  ///< no two alike
     std::vector<lod::Vertex> vertices;
     std::vector<uint32_t> indices;
+    std::vector<FacingRange> facings;
 
     /// A motion is a range of keys: one key is a place for ever; the rest as TimedScene says.
     std::vector<data::IndexRange> motions;

@@ -37,7 +37,7 @@ void EveryObject::emit(const lod::View& view, lod::DrawList& out) {
     for (const Leaf& leaf : leaves_) {
         if (leaf.presence.share <= 0.0) continue;
         const SceneSphere sphere = sphere_at(tree_, tree_.clusters[leaf.id], time_s_);
-        if (sight_of({&sight, 1}, sphere, 0.0).is_seen) items.add(leaf.id, out);
+        if (sight_of({&sight, 1}, sphere, 0.0).is_seen) items.add_whole(leaf.id, out);
     }
     emitted_ = items.triangles();
 }

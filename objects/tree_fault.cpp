@@ -52,6 +52,18 @@ std::string fault_of_geometry(const ClusterTree& tree, const ClusterGeometry& ge
         if (tree.indices[geometry.first_index + i] >= geometry.vertex_count)
             return "an index outside its geometry; expected one of its vertices";
     }
+    if (geometry.facing_count == 0) return {};
+    if (uint64_t{geometry.first_facing} + geometry.facing_count > tree.facings.size() ||
+        !is_finite(geometry.centre) || !(geometry.radius_m >= 0.0f))
+        return "a geometry that looks nowhere; expected ranges of the file's";
+    uint64_t total = geometry.glass_index_count;
+    for (uint32_t i = 0; i < geometry.facing_count; ++i) {
+        const FacingRange& range = tree.facings[geometry.first_facing + i];
+        if (!is_finite(range.axis) || !(range.spread_rad >= 0.0f) || !std::isfinite(range.least_offset_m))
+            return "triangles that look nowhere; expected a direction";
+        total += range.index_count;
+    }
+    if (total != geometry.index_count) return "a geometry of two sizes; expected ranges that fill it";
     return {};
 }
 

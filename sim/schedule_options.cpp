@@ -24,6 +24,7 @@ double schedule_end_s(const World& world) {
     double end_s = 0.0;
     for (const auto& site : world.sites)
         end_s = std::max(end_s, site->tree().end_s);
+    if (!world.relief.edits.empty()) end_s = std::max(end_s, world.relief.edits.back().time_s);
     return end_s;
 }
 

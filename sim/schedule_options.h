@@ -20,7 +20,7 @@ void add_schedule(CLI::App& app, ScheduleArguments& arguments);
 /// @param begin_s  simulation time of the flight's first frame
 Schedule schedule_at_begin(const ScheduleArguments& arguments, double begin_s);
 
-/// The latest event of what the world shows by schedule, s; 0 when it shows nothing so.
+/// The latest event of what the world shows by schedule, edits of the ground included, s; 0 when it shows nothing so.
 double schedule_end_s(const World& world);
 
 }  // namespace sim

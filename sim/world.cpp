@@ -188,7 +188,7 @@ lod::Result<lod::Ok> build_objects(World& world, const WorldOptions& options) {
     return lod::Ok{};
 }
 
-/// Buildings and models to the ground as it is now.
+/// Buildings, models and scenes of objects to the ground as it is now.
 void settle_objects(World& world, const data::SampleRange& changed) {
     const objects::Ground ground{world.ground.get(), world.frame};
     std::vector<lod::Vertex> vertices;
@@ -211,6 +211,11 @@ void settle_objects(World& world, const data::SampleRange& changed) {
         }
     }
     if (world.models) pose_bodies(world.models_rig, glm::dmat3(1.0), glm::dvec3(0.0), *world.models);
+    for (size_t i = 0; i < world.sites.size(); ++i) {
+        // They agreed when the world was built.
+        if (const auto place = place_of_site(world.scene.objects[i], world.sites[i]->tree(), world))
+            world.sites[i]->stand_at(*place);
+    }
 }
 
 /// The place whose east, north and up the sun's direction is given in.

@@ -44,12 +44,17 @@ void settle_levels(Draft& draft) {
     }
     const double largest = sizes.empty() ? 1.0 : *std::max_element(sizes.begin(), sizes.end());
     draft.size_m = std::max({glm::length(high - low), largest, 1e-6});
-    if (draft.options.levels > 0) return;
+    BuildOptions& options = draft.options;
+    if (options.levels > 0) {
+        options.fine_levels = 0;
+        options.levels_per_doubling = 1;
+        return;
+    }
     const double usual = sizes.empty() ? largest : mean_of_middle_half(sizes);
     const double first_m = kFirstSizes * usual;
     const double doublings =
         std::clamp(std::ceil(std::log2(draft.size_m / first_m)), 0.0, double(kMostLevels - 1));
-    draft.options.levels = static_cast<uint32_t>(doublings) + 1;
+    options.levels = options.fine_levels + options.levels_per_doubling * static_cast<uint32_t>(doublings) + 1;
     draft.size_m = std::max(draft.size_m, std::exp2(doublings) * first_m);
 }
 
@@ -58,7 +63,9 @@ void settle_levels(Draft& draft) {
 uint32_t build_hierarchy(Draft& draft, std::vector<uint32_t> active, const HierarchyFrame& frame,
                          const BuildProgress& progress) {
     for (uint32_t level = 1; level <= draft.options.levels || active.size() > 1; ++level) {
-        const Grouping grouping = group_neighbours(draft, active, draft.at(level));
+        const Grouping grouping = merges(draft.options, level)
+                                      ? group_neighbours(draft, active, draft.at(level))
+                                      : Grouping{.groups = {}, .waiting = active, .counts = {}};
         draft.counts.add(grouping.counts);
         std::vector<uint32_t> released = grouping.waiting;
         std::vector<uint32_t> next = merge_groups(draft, grouping.groups, level, frame, released);
@@ -88,13 +95,6 @@ uint32_t build_movers(Draft& draft, const std::vector<uint32_t>& movers, const B
     std::map<uint32_t, std::vector<uint32_t>> bodies;
     for (uint32_t id : movers)
         bodies[draft.clusters[id].motion].push_back(id);
-    std::vector<uint32_t> meshes;
-    for (uint32_t id : movers)
-        meshes.push_back(draft.clusters[id].mesh);
-    std::sort(meshes.begin(), meshes.end());
-    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
-    for (uint32_t level = 1; level <= draft.options.levels; ++level)
-        make_rungs(draft, meshes, level);
     std::vector<uint32_t> tops;
     for (auto& [motion, members] : bodies)
         tops.push_back(build_hierarchy(draft, members, {motion, data::MotionClass::kDynamic}, {}));

@@ -15,7 +15,6 @@ namespace objects {
 
 namespace {
 
-constexpr double kRungShare = 0.6;        ///< of a level's error that a mesh by itself may take
 constexpr size_t kFewestFaces = 4;        ///< meshes with fewer are not reduced by themselves
 constexpr double kWorthwhileShare = 0.7;  ///< a rung has at most so many of the finer one's faces
 
@@ -198,7 +197,7 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
         const std::vector<MeshRung>& rungs = draft.meshes[mesh].rungs;
         if (rungs.empty() || rungs.back().level < level) missing.push_back(mesh);
     }
-    const double limit_m = kRungShare * draft.at(level).error_m;
+    const double limit_m = draft.at(level).error_m;
     std::vector<MeshRung> made(missing.size());
     for_each_item(missing.size(), draft.options.threads, [&](size_t i) {
         const DraftMesh& mesh = draft.meshes[missing[i]];
@@ -222,14 +221,17 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
     }
 }
 
-double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, uint32_t level,
+double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, double most_m,
                            const glm::dvec3& offset, FaceSoup& out) {
     if (cluster.mesh == kNone) {
         append_soup(draft.soups[cluster.soup], glm::dmat3(1.0), offset, out);
         return 0.0;
     }
     const DraftMesh& mesh = draft.meshes[cluster.mesh];
-    const MeshRung* rung = rung_at(mesh, std::max(level, cluster.rung));
+    const MeshRung* rung = nullptr;
+    for (const MeshRung& coarser : mesh.rungs) {
+        if (coarser.error_m <= most_m && coarser.geometry != kNoGeometry) rung = &coarser;
+    }
     const FaceSoup& soup = rung != nullptr ? rung->soup : mesh.soup;
     if (cluster.motion_class == data::MotionClass::kDynamic) {
         append_soup(soup, glm::dmat3(1.0), offset, out);
@@ -237,7 +239,7 @@ double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, uint
         const data::KeyFrame& key = draft.scene.keys[draft.motions[cluster.motion].begin];
         append_soup(soup, glm::mat3_cast(key.rotation), key.position + offset, out);
     }
-    return rung != nullptr ? rung->error_m - cluster.error_m : 0.0;
+    return (rung != nullptr ? rung->error_m : 0.0) - cluster.error_m;
 }
 
 }  // namespace objects

@@ -72,9 +72,10 @@ const MeshRung* rung_at(const DraftMesh& mesh, uint32_t level);
 /// @param meshes  distinct
 void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level);
 
-/// The soup that stands for a cluster in its hierarchy's frame, at this level's accuracy, appended to `out`.
-/// @returns how much more than the cluster's error_m it is off, metres
-double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, uint32_t level,
+/// The soup that stands for a cluster in its hierarchy's frame, appended to `out`: of a mesh the coarsest rung that is off
+/// by no more than `most_m`.
+/// @returns how much more than the cluster's error_m it is off, metres; may be negative
+double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, double most_m,
                            const glm::dvec3& offset, FaceSoup& out);
 
 }  // namespace objects

@@ -72,6 +72,12 @@ glm::vec3 bent_normal(const std::vector<glm::dvec3>& cross, std::span<const uint
     return glm::vec3(sum / std::sqrt(glm::dot(sum, sum)));
 }
 
+/// Puts what is not glass into the order of where it looks.
+void settle_facings(DrawnGeometry& drawn) {
+    const size_t opaque = drawn.indices.size() - drawn.glass_index_count;
+    drawn.facings = sort_by_facing(drawn.vertices, std::span(drawn.indices).first(opaque));
+}
+
 }  // namespace
 
 DrawnGeometry draw_mesh(const data::TimedMesh& mesh) {
@@ -94,6 +100,7 @@ DrawnGeometry draw_mesh(const data::TimedMesh& mesh) {
             if (glass) drawn.glass_index_count += 3;
         }
     }
+    settle_facings(drawn);
     return drawn;
 }
 
@@ -127,6 +134,7 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
             if (glass) drawn.glass_index_count += 3;
         }
     }
+    settle_facings(drawn);
     return drawn;
 }
 
@@ -155,6 +163,11 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
     added.glass_index_count = geometry.glass_index_count;
     added.first_vertex = static_cast<uint32_t>(vertices_.append(geometry.vertices));
     added.first_index = static_cast<uint32_t>(indices_.append(geometry.indices));
+    added.first_facing = static_cast<uint32_t>(facings_.size());
+    added.facing_count = static_cast<uint32_t>(geometry.facings.ranges.size());
+    added.centre = geometry.facings.centre;
+    added.radius_m = geometry.facings.radius_m;
+    facings_.insert(facings_.end(), geometry.facings.ranges.begin(), geometry.facings.ranges.end());
     const uint32_t id = static_cast<uint32_t>(geometries_.size());
     geometries_.push_back(added);
     by_hash_.emplace(hash, id);
@@ -163,6 +176,7 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
 
 void GeometryPool::move_to(ClusterTree& tree) {
     tree.geometries = std::move(geometries_);
+    tree.facings = std::move(facings_);
     tree.vertices = vertices_.release();
     tree.indices = indices_.release();
     *this = GeometryPool();

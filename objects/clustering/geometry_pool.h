@@ -7,6 +7,7 @@
 #include "data/timed_scene.h"
 #include "lod/draw_list.h"
 #include "objects/cluster_tree.h"
+#include "objects/clustering/facing.h"
 #include "objects/clustering/growing_array.h"
 #include "objects/reduction/face_soup.h"
 
@@ -17,6 +18,7 @@ struct DrawnGeometry {
     std::vector<lod::Vertex> vertices;
     std::vector<uint32_t> indices;
     uint32_t glass_index_count = 0;
+    Facings facings;  ///< of what is not glass
 };
 
 /// A mesh of the scene, exactly: its own vertices, normals and colours. A triangle with a corner that is not opaque is
@@ -39,6 +41,7 @@ class GeometryPool {
     bool is_equal(const ClusterGeometry& known, const DrawnGeometry& geometry) const;
 
     std::vector<ClusterGeometry> geometries_;
+    std::vector<FacingRange> facings_;
     GrowingArray<lod::Vertex> vertices_;
     GrowingArray<uint32_t> indices_;
     std::unordered_multimap<uint64_t, uint32_t> by_hash_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lod/base/hilbert3.h"
 #include "objects/clustering/alive_tree.h"
-#include "objects/clustering/hilbert3.h"
 
 namespace objects {
 
@@ -59,7 +59,7 @@ void sort_along_curve(const Draft& draft, std::vector<uint32_t>& clusters) {
     keys.reserve(clusters.size());
     for (uint32_t id : clusters) {
         const glm::dvec3 cell = (middle_of(draft.clusters[id]) - low) * (double((1u << 21) - 1) / side);
-        keys.emplace_back(hilbert_index3(uint32_t(cell.x), uint32_t(cell.y), uint32_t(cell.z)), id);
+        keys.emplace_back(lod::hilbert_index(uint32_t(cell.x), uint32_t(cell.y), uint32_t(cell.z)), id);
     }
     std::sort(keys.begin(), keys.end());
     for (size_t i = 0; i < keys.size(); ++i)

@@ -12,7 +12,9 @@ namespace objects {
 namespace {
 
 constexpr double kLeastShare = 0.05;  ///< of a level's error: with less left, geometry is joined as it is
-constexpr double kSpentShare = 0.3;   ///< of a level's error: children that are off by more are passed over
+constexpr double kSpentShare = 0.06;  ///< of a level's error: what is off by more is no source
+constexpr double kWorthwhileShare =
+    0.8;  ///< of its faces that a cluster alone may keep in a parent of its own
 constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
 constexpr size_t kGroupsAtOnce = 256;     ///< so many finished clusters wait at most to be put into the draft
 constexpr double kMostSizes = 2.0;        ///< of w(l), beyond which nothing alone is reduced
@@ -74,25 +76,36 @@ void settle_box(const Draft& draft, std::span<const uint32_t> children, DraftClu
     }
 }
 
-/// Clusters whose geometry a parent is made of: children, or theirs where a child has spent so much of the level's error
-/// that little could be gained with the rest.
+/// Clusters whose geometry a parent is made of: children, or what is below them where they have spent so much of the
+/// level's error that little could be gained with the rest.
 void gather_sources(const Draft& draft, std::span<const uint32_t> children, uint32_t level,
                     std::vector<uint32_t>& out) {
     for (uint32_t child : children) {
         const DraftCluster& cluster = draft.clusters[child];
         if (cluster.error_m > kSpentShare * draft.at(level).error_m && cluster.soup != kNone)
-            out.insert(out.end(), cluster.children.begin(), cluster.children.end());
+            gather_sources(draft, cluster.children, level, out);
         else
             out.push_back(child);
     }
 }
 
-/// Nothing is made of grandchildren's soups any more once a cluster is made.
+void drop_soups(Draft& draft, std::span<const uint32_t> clusters) {
+    for (uint32_t id : clusters) {
+        const DraftCluster& cluster = draft.clusters[id];
+        if (cluster.soup == kNone || draft.soups[cluster.soup].faces.empty()) continue;
+        draft.soups[cluster.soup] = {};
+        drop_soups(draft, cluster.children);
+    }
+}
+
+/// What lies below a source of the next level is no source of any level any more.
 void drop_spent_soups(Draft& draft, const DraftCluster& cluster) {
-    for (uint32_t child : cluster.children) {
-        for (uint32_t grandchild : draft.clusters[child].children) {
-            if (draft.clusters[grandchild].soup != kNone) draft.soups[draft.clusters[grandchild].soup] = {};
-        }
+    for (uint32_t id : cluster.children) {
+        const DraftCluster& child = draft.clusters[id];
+        if (child.error_m <= kSpentShare * draft.at(cluster.level + 1).error_m)
+            drop_soups(draft, child.children);
+        else
+            drop_spent_soups(draft, child);
     }
 }
 
@@ -105,7 +118,8 @@ void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uin
     double error_m = 0.0, child_error_m = 0.0;
     for (uint32_t source : sources) {
         const DraftCluster& cluster = draft.clusters[source];
-        const double more_m = append_cluster_soup(draft, cluster, level, -middle, joined);
+        const double most_m = kSpentShare * draft.at(level).error_m;
+        const double more_m = append_cluster_soup(draft, cluster, most_m, -middle, joined);
         error_m = std::max(error_m, cluster.error_m + more_m);
     }
     out.counts.faces += joined.faces.size();
@@ -142,21 +156,6 @@ uint32_t add_cluster(Draft& draft, Merged& merged) {
     return static_cast<uint32_t>(draft.clusters.size()) - 1;
 }
 
-/// Meshes that at least two leaves of these groups share: worth reducing once by themselves.
-std::vector<uint32_t> shared_meshes(const Draft& draft, const std::vector<std::vector<uint32_t>>& groups) {
-    std::vector<uint32_t> used, shared;
-    for (const std::vector<uint32_t>& group : groups) {
-        for (uint32_t child : group) {
-            if (draft.clusters[child].mesh != kNone) used.push_back(draft.clusters[child].mesh);
-        }
-    }
-    std::sort(used.begin(), used.end());
-    for (size_t i = 1; i < used.size(); ++i) {
-        if (used[i] == used[i - 1] && (shared.empty() || shared.back() != used[i])) shared.push_back(used[i]);
-    }
-    return shared;
-}
-
 /// What is that much larger than a level's clusters is coarse enough for it, and costly to reduce to its error.
 bool is_too_large(const Draft& draft, const DraftCluster& cluster, uint32_t level) {
     return cluster.size_m() > kMostSizes * draft.at(level).size_m;
@@ -167,7 +166,6 @@ bool is_too_large(const Draft& draft, const DraftCluster& cluster, uint32_t leve
 std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<uint32_t>>& groups,
                                    uint32_t level, const HierarchyFrame& frame,
                                    std::vector<uint32_t>& released) {
-    make_rungs(draft, shared_meshes(draft, groups), level);
     std::vector<uint32_t> made;
     for (size_t begin = 0; begin < groups.size(); begin += kGroupsAtOnce) {
         const auto some = std::span(groups).subspan(begin, std::min(kGroupsAtOnce, groups.size() - begin));
@@ -233,7 +231,8 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
             parent.box_max += margin;
         } else {
             const size_t before = draft.soups[child.soup].faces.size();
-            if (merged[i].soup.faces.empty() || 2 * merged[i].soup.faces.size() > before) continue;
+            const double after = static_cast<double>(merged[i].soup.faces.size());
+            if (after == 0.0 || after > kWorthwhileShare * static_cast<double>(before)) continue;
             parent = merged[i].cluster;
             parent.geometry = draft.pool.add(merged[i].drawn);
             parent.soup = static_cast<uint32_t>(draft.soups.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lod/surface/surface_distance.h"
+#include "objects/reduction/twisted_card.h"
 
 namespace objects {
 
@@ -76,11 +77,6 @@ std::vector<Load> loads_of(const FaceSoup& source, const NearestFaces& nearest, 
     return loads;
 }
 
-struct Rod {
-    glm::dvec3 middle{0.0}, axis{0.0, 0.0, 1.0};
-    double length_m = 0.0, breadth_m = 0.0;
-};
-
 /// The rod whose points are spread along its axis like the load's.
 Rod rod_of(const Load& load) {
     Rod rod;
@@ -104,25 +100,6 @@ bool is_thin(const Rod& rod, double limit_m) {
            rod.length_m >= kLeastLength * rod.breadth_m;
 }
 
-/// Corners A, B, C, D.
-std::array<glm::dvec3, 4> twisted_card(const Rod& rod, double breadth_m) {
-    const glm::dvec3 other = std::abs(rod.axis.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 one_way = 0.5 * breadth_m * glm::normalize(glm::cross(rod.axis, other));
-    const glm::dvec3 other_way = glm::cross(rod.axis, one_way);
-    const glm::dvec3 half = 0.5 * rod.length_m * rod.axis;
-    const glm::dvec3 from = rod.middle - half, to = rod.middle + half;
-    return {from - one_way, from + one_way, to - other_way, to + other_way};
-}
-
-void append_card(const std::array<glm::dvec3, 4>& corners, const glm::u8vec4& colour, FaceSoup& out) {
-    const uint32_t first = static_cast<uint32_t>(out.points.size());
-    out.points.insert(out.points.end(), corners.begin(), corners.end());
-    for (uint32_t begin : {0u, 1u}) {
-        out.faces.push_back({first + begin, first + begin + 1, first + begin + 2});
-        out.colours.push_back(colour);
-    }
-}
-
 void append_face(const FaceSoup& from, uint32_t face, FaceSoup& out) {
     out.faces.push_back(from.faces[face]);
     out.colours.push_back(from.colours[face]);
@@ -137,9 +114,10 @@ void keep_breadth(const FaceSoup& source, const lod::TriangleTree& source_tree, 
     FaceSoup cards;
     for (uint32_t face = 0; face < result.faces.size(); ++face) {
         if (!(loads[face].area_m2 > kLeastLoad * area_m2(result.view().triangle(face)))) continue;
-        const Rod rod = rod_of(loads[face]);
+        Rod rod = rod_of(loads[face]);
         if (!is_thin(rod, limit_m)) continue;
-        const std::array<glm::dvec3, 4> card = twisted_card(rod, std::min(rod.breadth_m, limit_m));
+        rod.breadth_m = std::min(rod.breadth_m, limit_m);
+        const std::array<glm::dvec3, 4> card = twisted_card(rod);
         lod::PieceSearch search = kSearch;
         if (!lod::is_within({card[0], card[1], card[2]}, source_tree, limit_m, search) ||
             !lod::is_within({card[1], card[2], card[3]}, source_tree, limit_m, search))

@@ -2,14 +2,9 @@
 //
 // A mast within the limit of its axis may be reduced to slivers without area, or to a few faces with gaps as long as the
 // limit between them. That is near enough, but hardly a pixel's middle meets it: cranes look dotted from afar, then
-// vanish. A face that stands for more surface than it has, where that is long and thin, becomes a twisted card:
-//
-//         C---D        two faces over a common edge BC, the ends at right angles to each other and to the axis, so
-//          \  |        that it is never seen from its edge alone; as long as what it stands for is spread, and as broad
-//          |\ |        as that covers, averaged over all directions across the axis
-//       A--+-B
-//
-// A convex tube of perimeter u covers u / pi, such a card of breadth b at most 2 b / pi.
+// vanish. A face that stands for more surface than it has, where that is long and thin, becomes a twisted card
+// (twisted_card.h) as long as what it stands for is spread, and as broad as that covers, averaged over all directions
+// across the axis.
 #pragma once
 
 #include "lod/surface/triangle_tree.h"

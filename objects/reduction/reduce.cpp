@@ -10,6 +10,7 @@
 #include "objects/reduction/contraction.h"
 #include "objects/reduction/cover.h"
 #include "objects/reduction/recolour.h"
+#include "objects/reduction/stand_in.h"
 
 namespace objects {
 
@@ -63,8 +64,10 @@ FaceSoup propose(const FaceSoup& welded, double limit_m) {
     return contract(large_cover(grown, kSecondCoverShare * limit_m), tolerance_m, {});
 }
 
-/// Takes out what is wrong, then puts in of the source's own faces what is missing, large ones first.
-void mend(const FaceSoup& source, const Failures& failures, double limit_m, FaceSoup& result) {
+/// Takes out what is wrong, then puts in what is missing: the stand-ins of parts, or of the source's own faces some, large
+/// ones first.
+void mend(const FaceSoup& source, const StandIns& parts, const Failures& failures, double limit_m,
+          FaceSoup& result) {
     std::vector<uint8_t> is_good(result.faces.size(), 1);
     for (uint32_t face : failures.of_result)
         is_good[face] = 0;
@@ -74,12 +77,20 @@ void mend(const FaceSoup& source, const Failures& failures, double limit_m, Face
         missing.clear();
         lod::find_beyond(source.view(), lod::TriangleTree(result.view()), limit_m, missing, kSearch);
     }
+    std::vector<uint8_t> is_wanted(parts.soup.faces.size(), 0);
     FaceSoup patch;
     patch.points = source.points;
     for (uint32_t face : missing) {
+        const uint32_t part = parts.part_of_source[face];
+        if (parts.is_replaced[part] != 0) {
+            std::fill(is_wanted.begin() + parts.first_face[part],
+                      is_wanted.begin() + parts.first_face[part + 1], uint8_t{1});
+            continue;
+        }
         patch.faces.push_back(source.faces[face]);
         patch.colours.push_back(source.colours[face]);
     }
+    append_soup(choose_faces(parts.soup, is_wanted), glm::dmat3(1.0), glm::dvec3(0.0), result);
     const uint32_t settled = static_cast<uint32_t>(result.faces.size());
     append_soup(patch, glm::dmat3(1.0), glm::dvec3(0.0), result);
     result = large_cover(result, limit_m, settled);
@@ -90,17 +101,24 @@ void mend(const FaceSoup& source, const Failures& failures, double limit_m, Face
 FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     CHECK(limit_m > 0.0);
     if (source.faces.empty()) return {};
-    const FaceSoup welded = weld(source, kWeldShare * limit_m).soup;
+    const StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m);
+    const FaceSoup welded = weld(parts.to_grow, kWeldShare * limit_m).soup;
     if (welded.faces.empty()) return source;  // smaller than a cell
-    FaceSoup result = propose(welded, limit_m);
     const lod::TriangleTree source_tree(source.view());
-    const Failures failures = find_failures(source, source_tree, result, limit_m);
-    if (failures.size() > 0) mend(source, failures, limit_m, result);
+    FaceSoup result = parts.soup;
+    // A single part with a stand-in has nothing to grow together with.
+    if (parts.is_replaced.size() > 1 || parts.is_replaced[0] == 0) {
+        result = propose(welded, limit_m);
+        const Failures failures = find_failures(source, source_tree, result, limit_m);
+        if (failures.size() > 0) mend(source, parts, failures, limit_m, result);
+    }
+    const bool are_parts = parts.soup.faces.size() <= result.faces.size();
+    if (are_parts) result = parts.soup;
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
     const NearestFaces nearest = nearest_faces(source, result, limit_m);
     recolour(source, nearest, result);
-    keep_breadth(source, source_tree, nearest, limit_m, result);
+    if (!are_parts) keep_breadth(source, source_tree, nearest, limit_m, result);
     if (result.faces.size() >= source.faces.size()) return source;
     return result;
 }

@@ -47,6 +47,34 @@ void converge(ClusterFront& front, double tolerance_px) {
     ASSERT_TRUE(lod::schedule(fronts, budget, lod::operation_limit(1'000'000)).converged);
 }
 
+/// A scene that settles on changed ground: the same eye, the same time, another place.
+TEST(ClusterFront, AfterAMoveItDrawsWhatOneBuiltThereDraws) {
+    const RandomClusters scene(11, 1000, kEnd_s);
+    ClusterFront moved(scene.tree(), {});
+    lod::Rng rng(12);
+    std::vector<ClusterId> drawn, expected, before;
+    size_t changes = 0;
+    for (int i = 0; i < 30; ++i) {
+        const lod::View view = random_view(rng);
+        moved.begin_frame({&view, 1}, 50.0);
+        converge(moved, 2.0);
+        moved.drawn(before);
+        const ScenePlace place{glm::dmat3(1.0), {0.0, 0.0, rng.between(-300.0, 300.0)}};
+        ClusterFront there(scene.tree(), place);
+        moved.stand_at(place);
+        for (ClusterFront* front : {&moved, &there}) {
+            front->begin_frame({&view, 1}, 50.0);
+            converge(*front, 2.0);
+            EXPECT_EQ(front->validate(), "");
+        }
+        moved.drawn(drawn);
+        there.drawn(expected);
+        EXPECT_EQ(drawn, expected) << i;
+        changes += drawn != before;
+    }
+    EXPECT_GT(changes, 10u);
+}
+
 TEST(ClusterFront, ConvergesToDisplayAtRandomEyesAndTimes) {
     const RandomClusters scene(1, 2000, kEnd_s);
     ClusterFront front(scene.tree(), {});

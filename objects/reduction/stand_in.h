@@ -1,0 +1,44 @@
+// Stand-ins: a part that is nearly a prism is one of few sides, a sheet, or a single face.
+//
+//       ___                                                             .
+//     /     \         ______         _____                             / \        .
+//    |\ ___ /|       |\____/|       |\___/|        +-----+            /   \       the more it may be off,
+//    | |   | |       ||    ||       | | | |        |     |           /     \      the fewer faces
+//    |_|___|_|       ||____||        \|_|/         +-----+          /_______\     .
+//     prism of 12     box            of 3          sheet            spike
+//     44 faces        12             8             2                1
+//
+// Contraction cuts corners one by one and only outwards, so it comes late from one of these to the next; here the next is
+// proposed as a whole and proved. Prisms are closed. A spike stands for a part that is nowhere farther from its
+// axis than the limit, and covers as much as the part seen from the side, as far as the limit allows.
+#pragma once
+
+#include "objects/reduction/face_soup.h"
+
+namespace objects {
+
+struct StandIn {
+    FaceSoup soup;         ///< in one colour
+    bool is_card = false;  ///< twisted; should not be merged with others: both would be too broad
+};
+
+/// @param part     any soup; one in one piece and convex is worth asking for
+/// @param limit_m  > 0
+/// @returns        a soup whose Hausdorff distance to `part` is proved to be at most `limit_m`, with the
+///                 fewest faces of those tried and fewer than `part`; without faces when none is
+/// Cost: O(n log n), 1 to 10 us a face. Deterministic.
+StandIn stand_in(const FaceSoup& part, double limit_m);
+
+/// Every part of a soup by its stand-in where there is one, else as it is.
+struct StandIns {
+    FaceSoup soup;
+    FaceSoup to_grow;  ///< the same, but slender parts as they are: what grows together best
+    std::vector<uint32_t> part_of_source;  ///< [faces of the source]
+    std::vector<uint32_t> first_face;      ///< [parts + 1] of `soup`
+    std::vector<uint8_t> is_replaced;      ///< [parts]
+};
+
+/// @param cell_m  > 0; points that near to each other hold a part together
+StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m);
+
+}  // namespace objects
