@@ -43,16 +43,17 @@ void expect_n_log_n(SceneFamily family, const objects::BuildOptions& options, co
     }
 }
 
-/// Neighbours in space are neighbours in time. Counted: 0.28 nodes, 6.2 steps, 1.53 faces at the most.
+/// Neighbours in space are neighbours in time. Counted: 0.28 nodes, 6.2 steps, 6.95 faces at the most;
+/// sources within 0.06 of a level's error are some levels down.
 TEST(ClusterScaling, WorkOnATowerIsNLogN) {
-    expect_n_log_n(SceneFamily::kHighRise, {.threads = 2}, {.nodes = 0.35, .steps = 7.0, .faces = 1.7});
+    expect_n_log_n(SceneFamily::kHighRise, {.threads = 2}, {.nodes = 0.35, .steps = 7.0, .faces = 8.0});
 }
 
 /// In no order at all, which is the hardest for a tree over place and time; nothing is reduced here. Counted: 0.91
-/// nodes, 6.6 steps, 4.0 faces at the most.
+/// nodes, 6.6 steps, 6.0 faces at the most.
 TEST(ClusterScaling, WorkWithoutOrderIsNLogN) {
     expect_n_log_n(SceneFamily::kScattered, {.error_share = 0.0, .threads = 2},
-                   {.nodes = 1.1, .steps = 7.5, .faces = 4.5});
+                   {.nodes = 1.1, .steps = 7.5, .faces = 6.8});
 }
 
 /// An object of a large scene costs what one of a small scene does: levels begin at the objects' size, not at the scene's.
