@@ -112,6 +112,11 @@ void add_clusters_build(CLI::App& app, ClustersBuildArguments& arguments) {
                    "largest error of a level's clusters, as a share of their size")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    app.add_option("--spent-share", arguments.options.spent_share,
+                   "error that what is reduced further may have, as a share of the level's; more: builds "
+                   "faster, draws more")
+        ->check(CLI::Range(0.0, 0.5))
+        ->capture_default_str();
     app.add_option("--gamma-share", arguments.options.gamma_share,
                    "largest error in time of the last level, as a share of the schedule")
         ->check(CLI::Range(0.0, 1.0))

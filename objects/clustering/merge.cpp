@@ -12,7 +12,6 @@ namespace objects {
 namespace {
 
 constexpr double kLeastShare = 0.05;  ///< of a level's error: with less left, geometry is joined as it is
-constexpr double kSpentShare = 0.06;  ///< of a level's error: what is off by more is no source
 constexpr double kWorthwhileShare =
     0.8;  ///< of its faces that a cluster alone may keep in a parent of its own
 constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
@@ -82,7 +81,7 @@ void gather_sources(const Draft& draft, std::span<const uint32_t> children, uint
                     std::vector<uint32_t>& out) {
     for (uint32_t child : children) {
         const DraftCluster& cluster = draft.clusters[child];
-        if (cluster.error_m > kSpentShare * draft.at(level).error_m && cluster.soup != kNone)
+        if (cluster.error_m > draft.options.spent_share * draft.at(level).error_m && cluster.soup != kNone)
             gather_sources(draft, cluster.children, level, out);
         else
             out.push_back(child);
@@ -102,7 +101,7 @@ void drop_soups(Draft& draft, std::span<const uint32_t> clusters) {
 void drop_spent_soups(Draft& draft, const DraftCluster& cluster) {
     for (uint32_t id : cluster.children) {
         const DraftCluster& child = draft.clusters[id];
-        if (child.error_m <= kSpentShare * draft.at(cluster.level + 1).error_m)
+        if (child.error_m <= draft.options.spent_share * draft.at(cluster.level + 1).error_m)
             drop_soups(draft, child.children);
         else
             drop_spent_soups(draft, child);
@@ -118,7 +117,7 @@ void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uin
     double error_m = 0.0, child_error_m = 0.0;
     for (uint32_t source : sources) {
         const DraftCluster& cluster = draft.clusters[source];
-        const double most_m = kSpentShare * draft.at(level).error_m;
+        const double most_m = draft.options.spent_share * draft.at(level).error_m;
         const double more_m = append_cluster_soup(draft, cluster, most_m, -middle, joined);
         error_m = std::max(error_m, cluster.error_m + more_m);
     }

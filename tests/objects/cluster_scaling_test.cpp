@@ -67,6 +67,14 @@ TEST(ClusterScaling, FacesOfAnObjectDoNotDependOnTheScene) {
     EXPECT_NEAR(faces_each(4500), one, 0.15 * one);
 }
 
+TEST(ClusterScaling, SourcesThatMayBeOffByMoreCostLess) {
+    const auto faces = [](double spent_share) {
+        return build_family({.objects = 1000, .triangles = 60}, {.spent_share = spent_share, .threads = 2})
+            .counts.faces;
+    };
+    EXPECT_LT(faces(0.25), faces(0.06) / 2);
+}
+
 TEST(ClusterScaling, TheSameBytesAndCountsForAnyNumberOfThreads) {
     const data::FamilyOptions family{.objects = 5000, .triangles = 12};
     const Built one = build_family(family, {.threads = 1}), two = build_family(family, {.threads = 2});
