@@ -7,6 +7,7 @@
 #include "data/ground_height.h"
 #include "data/relief_edit.h"
 #include "lod/scheduler.h"
+#include "sim/schedule_options.h"
 #include "sim/world.h"
 #include "tests/sim/program.h"
 
@@ -121,6 +122,12 @@ TEST_F(ReliefInTime, IsAFunctionOfTime) {
     EXPECT_EQ(world->ground_colours.rgba, colours);
     EXPECT_EQ(world->objects->hash(), objects);
     EXPECT_EQ(world->terrain->validate(), "");
+}
+
+TEST_F(ReliefInTime, ScheduleEndsWithTheLatestEdit) {
+    const auto world = build(kScene);
+    ASSERT_TRUE(world);
+    EXPECT_EQ(sim::schedule_end_s(*world), 20.0);
 }
 
 TEST_F(ReliefInTime, BuildingsSettleWithTheirGround) {
