@@ -128,6 +128,14 @@ Proposal prism_over(const Seen& seen, const Outline& ring) {
     return prism;
 }
 
+/// What is seen from both sides has the light of one: of the upper, as ground and roofs are looked at from above.
+void turn_up(FaceSoup& soup) {
+    for (auto& face : soup.faces) {
+        const glm::dvec3 &a = soup.points[face[0]], &b = soup.points[face[1]], &c = soup.points[face[2]];
+        if (glm::cross(b - a, c - a).z < 0.0) std::swap(face[1], face[2]);
+    }
+}
+
 Proposal sheet_over(const Seen& seen) {
     const Line line = long_line(seen.rectangle);
     FaceSoup sheet;
@@ -136,6 +144,7 @@ Proposal sheet_over(const Seen& seen) {
             sheet.points.push_back(seen.part_from_axes * glm::dvec3(corner.x, corner.y, z));
     }
     sheet.faces = {{0, 1, 3}, {0, 3, 2}};
+    turn_up(sheet);
     return {sheet, sheet};
 }
 
@@ -152,6 +161,7 @@ Proposal spike_over(const Seen& seen, double limit_m) {
     spike.points = {at(line.middle - foot, seen.low_m), at(line.middle + foot, seen.low_m),
                     at(line.middle, seen.high_m)};
     spike.faces = {{0, 1, 2}};
+    turn_up(spike);
     return {spike, spike};
 }
 
