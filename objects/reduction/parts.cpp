@@ -52,4 +52,19 @@ FaceSoup part_of(const FaceSoup& soup, const std::vector<uint32_t>& faces) {
     return part;
 }
 
+bool is_closed(const FaceSoup& soup, std::span<const uint32_t> faces, const std::vector<uint32_t>& point_of) {
+    std::vector<std::array<uint32_t, 2>> there, back;
+    for (const uint32_t face : faces) {
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = point_of[soup.faces[face][k]], b = point_of[soup.faces[face][(k + 1) % 3]];
+            if (a == b) continue;
+            there.push_back({a, b});
+            back.push_back({b, a});
+        }
+    }
+    std::sort(there.begin(), there.end());
+    std::sort(back.begin(), back.end());
+    return there == back && std::adjacent_find(there.begin(), there.end()) == there.end();
+}
+
 }  // namespace objects

@@ -11,6 +11,7 @@
 #include "objects/reduction/cover.h"
 #include "objects/reduction/recolour.h"
 #include "objects/reduction/stand_in.h"
+#include "objects/reduction/upper_side.h"
 
 namespace objects {
 
@@ -120,6 +121,7 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     recolour(source, nearest, result);
     if (!are_parts) keep_breadth(source, source_tree, nearest, limit_m, result);
     if (result.faces.size() >= source.faces.size()) return source;
+    turn_open_parts_up(kWeldShare * limit_m, result);
     return result;
 }
 

@@ -21,7 +21,8 @@ constexpr double kSlender = 4.0;     ///< so many breadths long
 constexpr int kTurns = 24;           ///< of an axis towards the longest
 constexpr double kUprightCos = 0.9;  ///< what is longest that way is seen from above only
 constexpr double kReachShare = 0.9;  ///< of the limit, that something may be broader than what it stands for
-constexpr double kPairShare = 0.8;   ///< of a part's radius, within which it may be a pair of faces
+constexpr double kFlatShare = 1.0 / 16.0;  ///< of its shorter side: as high, a part may be one side of a lid
+constexpr double kPairShare = 0.8;         ///< of a part's radius, within which it may be a pair of faces
 constexpr lod::PieceSearch kSearch{.most_pieces = 1024, .smallest_share = 1.0 / 16};
 
 /// What may stand for a part, and the same surface in faces that are easier to prove.
@@ -79,6 +80,11 @@ Line long_line(const Outline& rectangle) {
     return {0.5 * (rectangle[0] + rectangle[2]), glm::length(one) < glm::length(other) ? other : one};
 }
 
+double short_side_m(const Outline& rectangle) {
+    if (rectangle.size() < 4) return 0.0;
+    return std::min(glm::distance(rectangle[0], rectangle[1]), glm::distance(rectangle[1], rectangle[2]));
+}
+
 /// Appends what stands upright over a ring, then, if `has_caps`, what closes it.
 void append_walls(const Seen& seen, const Outline& ring, bool has_caps, FaceSoup& out) {
     const uint32_t n = static_cast<uint32_t>(ring.size());
@@ -128,12 +134,15 @@ Proposal prism_over(const Seen& seen, const Outline& ring) {
     return prism;
 }
 
-/// What is seen from both sides has the light of one: of the upper, as ground and roofs are looked at from above.
-void turn_up(FaceSoup& soup) {
-    for (auto& face : soup.faces) {
-        const glm::dvec3 &a = soup.points[face[0]], &b = soup.points[face[1]], &c = soup.points[face[2]];
-        if (glm::cross(b - a, c - a).z < 0.0) std::swap(face[1], face[2]);
-    }
+/// What is flat along the axis, by one side of it half-way: a prism would show its two caps in one place, lit as they like.
+Proposal lid_over(const Seen& seen, const Outline& ring) {
+    FaceSoup lid;
+    for (const glm::dvec2& corner : ring)
+        lid.points.push_back(seen.part_from_axes *
+                             glm::dvec3(corner.x, corner.y, 0.5 * (seen.low_m + seen.high_m)));
+    for (uint32_t i = 1; i + 1 < ring.size(); ++i)
+        lid.faces.push_back({0, i, i + 1});
+    return {lid, lid};
 }
 
 Proposal sheet_over(const Seen& seen) {
@@ -144,7 +153,6 @@ Proposal sheet_over(const Seen& seen) {
             sheet.points.push_back(seen.part_from_axes * glm::dvec3(corner.x, corner.y, z));
     }
     sheet.faces = {{0, 1, 3}, {0, 3, 2}};
-    turn_up(sheet);
     return {sheet, sheet};
 }
 
@@ -161,7 +169,6 @@ Proposal spike_over(const Seen& seen, double limit_m) {
     spike.points = {at(line.middle - foot, seen.low_m), at(line.middle + foot, seen.low_m),
                     at(line.middle, seen.high_m)};
     spike.faces = {{0, 1, 2}};
-    turn_up(spike);
     return {spike, spike};
 }
 
@@ -245,12 +252,17 @@ void propose_along(const Seen& seen, size_t faces, double limit_m, std::vector<P
     if (corner_distance(seen.outline, {line.middle - line.half, line.middle + line.half}) <= limit_m)
         out.push_back(sheet_over(seen));
     if (seen.outline.size() < 3) return;
+    const double height_m = seen.high_m - seen.low_m;
+    const bool is_flat = height_m <= 2.0 * limit_m && height_m <= kFlatShare * short_side_m(seen.rectangle);
     for (const uint32_t corners : kRings) {
-        if (4 * corners - 4 >= faces) return;
-        if (corners == 4 && corner_distance(seen.outline, seen.rectangle) <= limit_m)
-            out.push_back(prism_over(seen, seen.rectangle));
-        const Outline ring = balanced_ring(seen.outline, seen.rectangle, corners);
-        if (corner_distance(seen.outline, ring) <= limit_m) out.push_back(prism_over(seen, ring));
+        const auto propose_over = [&](const Outline& ring) {
+            if (corner_distance(seen.outline, ring) > limit_m) return;
+            if (is_flat) out.push_back(lid_over(seen, ring));
+            if (4 * corners - 4 < faces) out.push_back(prism_over(seen, ring));
+        };
+        if (corners - 2 >= faces || (4 * corners - 4 >= faces && !is_flat)) return;
+        if (corners == 4) propose_over(seen.rectangle);
+        propose_over(balanced_ring(seen.outline, seen.rectangle, corners));
     }
 }
 

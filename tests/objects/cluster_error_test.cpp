@@ -1,7 +1,10 @@
 // Proved errors against dense samples measured by CGAL, which shares nothing with the proof.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "objects/reduction/reduce.h"
+#include "tests/objects/boxes.h"
 #include "tests/objects/sampled_distance.h"
 #include "tests/objects/small_scenes.h"
 #include "tests/objects/tree_surfaces.h"
@@ -29,6 +32,59 @@ TEST(ReduceWithin, ABallKeepsItsShape) {
         EXPECT_LT(reduced.faces.size(), ball.faces.size() / 2);
         for (const glm::u8vec4& colour : reduced.colours)
             EXPECT_EQ(colour, glm::u8vec4(1, 2, 3, 255));
+    }
+}
+
+/// What a ray from above meets first, and all that lies there with it: whether none of it looks down.
+bool is_top_lit_from_above(const FaceSoup& soup, const glm::dvec2& at) {
+    double top_m = -1e30;
+    bool is_lit = true;
+    for (size_t face = 0; face < soup.faces.size(); ++face) {
+        const lod::Triangle t = soup.view().triangle(face);
+        const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+        const auto side = [&at](const glm::dvec3& a, const glm::dvec3& b) {
+            return (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x);
+        };
+        const double ab = side(t.a, t.b), bc = side(t.b, t.c), ca = side(t.c, t.a);
+        if (!((ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0))) continue;
+        const double z_m = t.a.z - (normal.x * (at.x - t.a.x) + normal.y * (at.y - t.a.y)) / normal.z;
+        if (z_m > top_m + 1e-6) is_lit = true;
+        if (z_m > top_m - 1e-6) is_lit = is_lit && normal.z > 0.0;
+        top_m = std::max(top_m, z_m);
+    }
+    return is_lit;
+}
+
+/// Lawns, roads, roofs: slabs side by side keep the light of their upper sides, however flat they are pressed.
+TEST(ReduceWithin, SlabsAreLitFromAbove) {
+    FaceSoup ground;
+    for (int x = 0; x < 3; ++x) {
+        for (int y = 0; y < 3; ++y)
+            objects_test::add_box({84.0 * x, 84.0 * y, -0.3}, {84.0 * (x + 1), 84.0 * (y + 1), 0.0},
+                                  {90, 120, 60, 255}, ground);
+    }
+    for (const double limit_m : {0.2, 0.5, 1.0, 4.0}) {
+        const FaceSoup reduced = objects::reduce_within(ground, limit_m);
+        EXPECT_LE(sampled_both_ways_m(ground, reduced, 4.0), limit_m + 1e-9);
+        for (double x = 1.37; x < 250.0; x += 7.3) {
+            for (double y = 1.71; y < 250.0; y += 7.9)
+                ASSERT_TRUE(is_top_lit_from_above(reduced, {x, y})) << limit_m << " at " << x << ", " << y;
+        }
+    }
+}
+
+/// A road, a roof: one side of a slab, however it leans.
+TEST(ReduceWithin, WhatStandsForASlabLooksUp) {
+    for (const double lean : {0.0, 0.02, -0.02, 3.14}) {
+        FaceSoup slab;
+        objects_test::add_box({-20, -12, -0.1}, {20, 12, 0.1}, {90, 120, 60, 255}, slab);
+        for (glm::dvec3& p : slab.points)
+            p = {p.x, std::cos(lean) * p.y - std::sin(lean) * p.z,
+                 std::sin(lean) * p.y + std::cos(lean) * p.z};
+        const FaceSoup found = objects::reduce_within(slab, 1.0);
+        ASSERT_EQ(found.faces.size(), 2u);
+        EXPECT_TRUE(is_top_lit_from_above(found, {3.1, 2.3})) << lean;
+        EXPECT_TRUE(is_top_lit_from_above(found, {-3.1, -2.3})) << lean;
     }
 }
 

@@ -59,24 +59,6 @@ TEST(StandIn, WhatIsNoPrismHasNone) {
     EXPECT_TRUE(objects::stand_in({}, 0.5).soup.faces.empty());
 }
 
-/// Ground, a road, a roof: lit from above, however its corners are numbered and whichever way it leans.
-TEST(StandIn, SheetsLookUp) {
-    for (const double lean : {0.0, 0.02, -0.02, 3.14}) {
-        FaceSoup slab;
-        objects_test::add_box({-20, -12, -0.1}, {20, 12, 0.1}, {90, 120, 60, 255}, slab);
-        for (glm::dvec3& p : slab.points)
-            p = {p.x, std::cos(lean) * p.y - std::sin(lean) * p.z,
-                 std::sin(lean) * p.y + std::cos(lean) * p.z};
-        const FaceSoup found = objects::stand_in(slab, 1.0).soup;
-        ASSERT_FALSE(found.faces.empty());
-        ASSERT_LE(found.faces.size(), 2u);
-        for (const auto& face : found.faces) {
-            const glm::dvec3 a = found.points[face[0]];
-            EXPECT_GT(glm::cross(found.points[face[1]] - a, found.points[face[2]] - a).z, 0.0) << lean;
-        }
-    }
-}
-
 TEST(StandIn, GlassIsNotMixedWithWalls) {
     FaceSoup part = prism(12, 3.25, 12.0);
     part.colours[3].w = 100;
