@@ -15,7 +15,7 @@ struct BuildOptions {
         4;  ///< unless L is given: the first of them, on which objects only get reduced parents
     uint32_t levels_per_doubling = 2;  ///< … of which one merges, the others only reduce
     double error_share = 0.01;         ///< epsilon(l) = error_share * w(l)
-    double spent_share = 0.06;  ///< of epsilon(l): what is off by more is no source; more: faster, more faces
+    double spent_share = 0.25;  ///< of epsilon(l): what is off by more is no source; more: faster, more faces
     double gamma_share = 0.25;  ///< gamma(L) = gamma_share; gamma(l) is in proportion to w(l)
     uint32_t most_children = 16;
     double visibility_slack =
