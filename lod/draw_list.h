@@ -39,7 +39,7 @@ struct Vertex {
 static_assert(sizeof(Vertex) == 32 && offsetof(Vertex, position_lo) == 12 &&
               offsetof(Vertex, surface) == 24 && offsetof(Vertex, colour) == 28);
 
-/// 112 bytes, std430. position_eye = eye_from_model * ((hi - origin_hi) + (lo - origin_lo)).
+/// 112 bytes. position_eye = eye_from_model * ((hi - origin_hi) + (lo - origin_lo)).
 struct Instance {
     float eye_from_model[3][4];  ///< rows of rotation times scale; 4th column unused
     float origin_hi[4];          ///< the eye in the model frame: high parts, w unused

@@ -17,7 +17,7 @@ struct DrawCommand {
     uint32_t instance_count = 0;
     uint32_t first_index = 0;
     int32_t base_vertex = 0;
-    uint32_t base_instance = 0;  ///< the instance record; the vertex shader reads it as gl_BaseInstanceARB
+    uint32_t base_instance = 0;  ///< the instance record; the vertex shader's attributes of an instance
 };
 static_assert(sizeof(DrawCommand) == 20 && offsetof(DrawCommand, base_instance) == 16);
 

@@ -9,9 +9,16 @@ namespace render {
 
 namespace {
 
-constexpr GLuint kVertexBinding = 0;
+constexpr GLuint kVertexBinding = 0, kInstanceBinding = 1;
 
-/// Mirrors lod::Vertex and the inputs of shaders/scene.vert.
+/// One input of shaders/scene.vert that four floats of an instance fill.
+void add_instance_attribute(GLuint array, GLuint location, size_t offset) {
+    glEnableVertexArrayAttrib(array, location);
+    glVertexArrayAttribBinding(array, location, kInstanceBinding);
+    glVertexArrayAttribFormat(array, location, 4, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+}
+
+/// Mirrors lod::Vertex, lod::Instance and the inputs of shaders/scene.vert.
 VertexArray make_vertex_array() {
     VertexArray array = VertexArray::create();
     const GLuint id = array.id();
@@ -23,6 +30,12 @@ VertexArray make_vertex_array() {
     glVertexArrayAttribFormat(id, 1, 3, GL_FLOAT, GL_FALSE, offsetof(lod::Vertex, position_lo));
     glVertexArrayAttribIFormat(id, 2, 2, GL_UNSIGNED_SHORT, offsetof(lod::Vertex, surface));
     glVertexArrayAttribIFormat(id, 3, 4, GL_UNSIGNED_BYTE, offsetof(lod::Vertex, colour));
+    for (GLuint row = 0; row < 3; ++row)
+        add_instance_attribute(id, 4 + row, offsetof(lod::Instance, eye_from_model) + row * sizeof(lod::Instance::eye_from_model[0]));
+    add_instance_attribute(id, 7, offsetof(lod::Instance, origin_hi));
+    add_instance_attribute(id, 8, offsetof(lod::Instance, origin_lo));
+    add_instance_attribute(id, 9, offsetof(lod::Instance, up_eye));
+    glVertexArrayBindingDivisor(id, kInstanceBinding, 1);
     return array;
 }
 
@@ -96,10 +109,11 @@ void submit(const GeometryPool& pool, const SurfaceTextures& textures, const Ind
     set_fixed_state();
     glVertexArrayVertexBuffer(pass.vertex_array.id(), kVertexBinding, pool.vertices.id(), 0,
                               sizeof(lod::Vertex));
+    glVertexArrayVertexBuffer(pass.vertex_array.id(), kInstanceBinding, pass.instances.id(), 0,
+                              sizeof(lod::Instance));
     glVertexArrayElementBuffer(pass.vertex_array.id(), pool.indices.id());
     glBindVertexArray(pass.vertex_array.id());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, pass.commands.id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pass.instances.id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, pass.frame.id());
     glBindTextureUnit(0, textures.ground.id());
     glBindTextureUnit(1, textures.patterns.id());

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <type_traits>
 
@@ -25,8 +24,7 @@ std::string constant(const char* name, double value) {
 }
 
 std::string preamble() {
-    return "#version 450 core\n#extension GL_ARB_shader_draw_parameters : require\n" +
-           constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
+    return "#version 450 core\n" + constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
            constant("kRoof", lod::Material::kRoof) + constant("kPaint", lod::Material::kPaint) +
            constant("kGlow", lod::Material::kGlow) + constant("kGlass", lod::Material::kGlass) +
            constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot) +
@@ -60,14 +58,6 @@ struct Member {
     size_t offset;
 };
 
-constexpr std::array kInstanceMembers{
-    Member{"instances[0].eye_from_model[0]", offsetof(lod::Instance, eye_from_model)},
-    Member{"instances[0].origin_hi", offsetof(lod::Instance, origin_hi)},
-    Member{"instances[0].origin_lo", offsetof(lod::Instance, origin_lo)},
-    Member{"instances[0].up_eye", offsetof(lod::Instance, up_eye)},
-    Member{"instances[0].is_world", offsetof(lod::Instance, is_world)},
-    Member{"instances[0].module", offsetof(lod::Instance, module)},
-};
 constexpr std::array kFrameMembers{
     Member{"projection", offsetof(FrameBlock, projection)},
     Member{"ray", offsetof(FrameBlock, ray)},
@@ -79,35 +69,22 @@ constexpr std::array kFrameMembers{
     Member{"ground_grid", offsetof(FrameBlock, ground_grid)},
 };
 
-GLint property_of(GLuint program, GLenum interface, const char* name, GLenum property) {
-    const GLuint index = glGetProgramResourceIndex(program, interface, name);
-    GLint value = -1;
-    if (index == GL_INVALID_INDEX) return value;
-    glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &value);
-    return value;
+GLint offset_of(GLuint program, const char* name) {
+    const GLuint index = glGetProgramResourceIndex(program, GL_UNIFORM, name);
+    GLint offset = -1;
+    if (index == GL_INVALID_INDEX) return offset;
+    constexpr GLenum kOffset = GL_OFFSET;
+    glGetProgramResourceiv(program, GL_UNIFORM, index, 1, &kOffset, 1, nullptr, &offset);
+    return offset;
 }
 
-lod::Result<lod::Ok> check_members(GLuint program, GLenum interface, std::span<const Member> members) {
-    for (const Member& member : members) {
-        const GLint offset = property_of(program, interface, member.name, GL_OFFSET);
+lod::Result<lod::Ok> check_layout(GLuint program) {
+    for (const Member& member : kFrameMembers) {
+        const GLint offset = offset_of(program, member.name);
         if (offset != static_cast<GLint>(member.offset)) {
             return lod::Error{"shader member " + std::string(member.name) + " lies at byte " +
                               std::to_string(offset) + ", expected " + std::to_string(member.offset)};
         }
-    }
-    return lod::Ok{};
-}
-
-lod::Result<lod::Ok> check_layout(GLuint program) {
-    auto frame = check_members(program, GL_UNIFORM, kFrameMembers);
-    if (!frame) return frame;
-    auto instance = check_members(program, GL_BUFFER_VARIABLE, kInstanceMembers);
-    if (!instance) return instance;
-    const GLint stride =
-        property_of(program, GL_BUFFER_VARIABLE, "instances[0].origin_hi", GL_TOP_LEVEL_ARRAY_STRIDE);
-    if (stride != static_cast<GLint>(sizeof(lod::Instance))) {
-        return lod::Error{"shader instances are " + std::to_string(stride) + " bytes apart, expected " +
-                          std::to_string(sizeof(lod::Instance))};
     }
     return lod::Ok{};
 }

@@ -6,17 +6,11 @@ layout(location = 1) in vec3 position_lo;
 layout(location = 2) in uvec2 surface;
 layout(location = 3) in uvec4 colour_material;
 
-// lod::Instance
-struct Instance {
-    vec4 eye_from_model[3];  // rows
-    vec4 origin_hi;
-    vec4 origin_lo;
-    vec4 up_eye;
-    uint is_world;
-    uint module;
-    uint unused[2];
-};
-layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
+// lod::Instance, one for all vertices of a command: an attribute that stands still is fetched once, not per vertex
+layout(location = 4) in vec4 eye_from_model[3];  // rows
+layout(location = 7) in vec4 origin_hi;
+layout(location = 8) in vec4 origin_lo;
+layout(location = 9) in vec4 instance_up_eye;  // w: ground error in px for kWallFoot
 
 out gl_PerVertex { vec4 gl_Position; };
 // Packed: the set-up of a triangle costs a software rasteriser by the vec4.
@@ -39,22 +33,22 @@ vec3 decode_normal(uvec2 code) {
 }
 
 // World axes, or the model's; metres from the eye.
-vec3 position_near_eye(Instance instance) {
-    precise vec3 near_eye = (position_hi - instance.origin_hi.xyz) + (position_lo - instance.origin_lo.xyz);
+vec3 position_near_eye() {
+    precise vec3 near_eye = (position_hi - origin_hi.xyz) + (position_lo - origin_lo.xyz);
     return near_eye;
 }
 
-vec3 position_in_eye(Instance instance, vec3 near_eye) {
-    precise vec3 eye = vec3(dot(instance.eye_from_model[0].xyz, near_eye),
-                            dot(instance.eye_from_model[1].xyz, near_eye),
-                            dot(instance.eye_from_model[2].xyz, near_eye));
+vec3 position_in_eye(vec3 near_eye) {
+    precise vec3 eye = vec3(dot(eye_from_model[0].xyz, near_eye),
+                            dot(eye_from_model[1].xyz, near_eye),
+                            dot(eye_from_model[2].xyz, near_eye));
     return eye;
 }
 
-vec3 normal_in_eye(Instance instance) {
+vec3 normal_in_eye() {
     vec3 n = decode_normal(surface);
-    return normalize(vec3(dot(instance.eye_from_model[0].xyz, n), dot(instance.eye_from_model[1].xyz, n),
-                          dot(instance.eye_from_model[2].xyz, n)));
+    return normalize(vec3(dot(eye_from_model[0].xyz, n), dot(eye_from_model[1].xyz, n),
+                          dot(eye_from_model[2].xyz, n)));
 }
 
 // Display colour of a matt surface with a soft sheen; `albedo` in display values, gamma taken as 2.
@@ -99,9 +93,9 @@ uint pattern_of(uint material, float steepness) {
 
 // The roof's points along the two axes of the world that its normal is farthest from. Tiles are a power of two of
 // metres, so whole ones fall out of the eye's coordinates without any rounding.
-vec2 roof_place(Instance instance, vec3 near_eye) {
-    vec3 tiles = near_eye * kRoofTilesPerMetre + fract(instance.origin_hi.xyz * kRoofTilesPerMetre) +
-                 instance.origin_lo.xyz * kRoofTilesPerMetre;
+vec2 roof_place(vec3 near_eye) {
+    vec3 tiles = near_eye * kRoofTilesPerMetre + fract(origin_hi.xyz * kRoofTilesPerMetre) +
+                 origin_lo.xyz * kRoofTilesPerMetre;
     vec3 steep = abs(decode_normal(surface));
     if (steep.z >= max(steep.x, steep.y)) return tiles.xy;
     return steep.x >= steep.y ? tiles.yz : tiles.xz;
@@ -137,18 +131,17 @@ void main() {
         v_pattern = vec4(0.0, 0.0, kPlain, 1.0);
         return;
     }
-    Instance instance = instances[gl_BaseInstanceARB];
-    vec3 near_eye = position_near_eye(instance);
-    vec3 eye = position_in_eye(instance, near_eye);
-    if (material == kWallFoot) eye += instance.up_eye.xyz * (instance.up_eye.w * eye.z * projection.w);
+    vec3 near_eye = position_near_eye();
+    vec3 eye = position_in_eye(near_eye);
+    if (material == kWallFoot) eye += instance_up_eye.xyz * (instance_up_eye.w * eye.z * projection.w);
     gl_Position = vec4(eye.xy * projection.xy, projection.z, -eye.z);
-    vec3 normal = normal_in_eye(instance);
+    vec3 normal = normal_in_eye();
     v_colour = surface_colour(material, normal, eye);
     uint pattern = pattern_of(material, abs(dot(normal, up_eye.xyz)));
     vec2 wall = wall_place(normal, eye);
     vec2 place = (ground_sample() - ground_tiles.zw) * ground_tiles.xy + ground_phase.xy;
     if (pattern == kPlain) place = vec2(0.0);
-    if (pattern == kRoofing) place = roof_place(instance, near_eye);
+    if (pattern == kRoofing) place = roof_place(near_eye);
     if (pattern >= kFirstFacade) place = wall;
     v_place_haze = vec3(place, mean_haze(eye));
     v_pattern = vec4(pattern >= kFirstFacade ? wall : vec2(0.0), pattern, material == kGround ? 0.0 : 1.0);
