@@ -59,7 +59,7 @@ struct DrawItem {
     uint32_t first_index = 0;
     int32_t base_vertex = 0;
     uint32_t instance = 0;  ///< into DrawList::instances
-    bool is_glass = false;  ///< drawn after everything else
+    bool is_glass = false;  ///< drawn after everything else, the last of them first
 };
 
 /// Bytes to place into the geometry pool before the draw. The data must stay valid until the next emit.

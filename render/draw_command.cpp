@@ -1,5 +1,7 @@
 #include "render/draw_command.h"
 
+#include <ranges>
+
 #include "lod/base/check.h"
 
 namespace render {
@@ -24,7 +26,7 @@ size_t build_commands(std::span<const lod::DrawItem> items, const std::optional<
         if (!item.is_glass && item.index_count > 0) out[count++] = command_of(item);
     }
     if (sky) out[count++] = command_of(*sky);
-    for (const lod::DrawItem& item : items) {
+    for (const lod::DrawItem& item : std::views::reverse(items)) {
         if (item.is_glass && item.index_count > 0) out[count++] = command_of(item);
     }
     return count;

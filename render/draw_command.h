@@ -21,7 +21,8 @@ struct DrawCommand {
 };
 static_assert(sizeof(DrawCommand) == 20 && offsetof(DrawCommand, base_instance) == 16);
 
-/// Puts the items in drawing order: opaque as listed, then the sky behind them, then glass as listed.
+/// Puts the items in drawing order: opaque as listed, then the sky behind them, then glass from the last to the first.
+/// Lists that go from near to far shade little twice and blend their panes rightly.
 ///
 /// @param items  empty ones (index_count 0) are left out
 /// @param sky    none: no sky is drawn

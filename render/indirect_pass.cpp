@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "render/shaders.h"
 
 namespace render {
 
@@ -60,12 +59,14 @@ void set_fixed_state() {
 }  // namespace
 
 lod::Result<IndirectPass> make_indirect_pass(uint32_t command_capacity) {
-    auto program = make_scene_program();
-    if (!program) return program.error();
+    IndirectPass pass;
+    for (size_t i = 0; i < pass.programs.size(); ++i) {
+        auto program = make_scene_program({.has_textures = (i & 1) != 0, .has_air = (i & 2) != 0});
+        if (!program) return program.error();
+        pass.programs[i] = std::move(*program);
+    }
     auto frame = MappedArray<FrameBlock>::create(1, "frame");
     if (!frame) return frame.error();
-    IndirectPass pass;
-    pass.program = std::move(*program);
     pass.vertex_array = make_vertex_array();
     pass.frame = std::move(*frame);
     if (auto resized = resize_commands(command_capacity, pass); !resized) return resized.error();
@@ -105,7 +106,8 @@ uint64_t upload_frame(const lod::DrawList& list, const GeometryPool& pool, const
     return bytes + count * sizeof(DrawCommand);
 }
 
-void submit(const GeometryPool& pool, const SurfaceTextures& textures, const IndirectPass& pass) {
+void submit(const GeometryPool& pool, const SurfaceTextures& textures, const ShaderFeatures& features,
+            const IndirectPass& pass) {
     set_fixed_state();
     glVertexArrayVertexBuffer(pass.vertex_array.id(), kVertexBinding, pool.vertices.id(), 0,
                               sizeof(lod::Vertex));
@@ -117,7 +119,7 @@ void submit(const GeometryPool& pool, const SurfaceTextures& textures, const Ind
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, pass.frame.id());
     glBindTextureUnit(0, textures.ground.id());
     glBindTextureUnit(1, textures.patterns.id());
-    glUseProgram(pass.program.id());
+    glUseProgram(pass.programs[size_t{features.has_textures} + 2 * size_t{features.has_air}].id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                 static_cast<GLsizei>(pass.command_count), sizeof(DrawCommand));
 }

@@ -1,6 +1,7 @@
 // IndirectPass: everything that turns a filled pool into a picture with one glMultiDrawElementsIndirect.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "lod/base/result.h"
@@ -9,11 +10,12 @@
 #include "render/frame_block.h"
 #include "render/geometry_pool.h"
 #include "render/mapped_array.h"
+#include "render/shaders.h"
 
 namespace render {
 
 struct IndirectPass {
-    Program program;
+    std::array<Program, 4> programs;       ///< has_textures + 2 * has_air
     VertexArray vertex_array;              ///< lod::Vertex as the shader's inputs
     MappedArray<DrawCommand> commands;     ///< capacity + 1: the sky
     MappedArray<lod::Instance> instances;  ///< capacity + 1: the sky
@@ -41,6 +43,7 @@ struct SurfaceTextures {
 };
 
 /// Binds pool, records and textures and submits the one draw call into the bound framebuffer.
-void submit(const GeometryPool& pool, const SurfaceTextures& textures, const IndirectPass& pass);
+void submit(const GeometryPool& pool, const SurfaceTextures& textures, const ShaderFeatures& features,
+            const IndirectPass& pass);
 
 }  // namespace render

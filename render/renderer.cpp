@@ -25,6 +25,7 @@ struct Renderer::State {
     IndirectPass pass;
     SurfaceTextures textures;
     Ground ground;
+    bool has_textures = false;  ///< others than the plain ones to begin with
     Fence in_flight;  ///< end of the last draw, while it may still read the buffers
     DrawStats stats;
     uint32_t allocations_since_draw = 0;
@@ -107,6 +108,7 @@ lod::Result<Renderer> Renderer::create(const RendererOptions& options) {
     Renderer renderer(std::move(state));
     constexpr std::array<uint8_t, 4> kWhite{255, 255, 255, 255};
     if (auto ground = renderer.set_ground_texture(1, 1, kWhite, 1, 1); !ground) return ground.error();
+    renderer.state_->has_textures = false;
     return renderer;
 }
 
@@ -120,6 +122,7 @@ lod::Result<lod::Ok> Renderer::set_ground_texture(int width, int height, std::sp
     auto texture = make_ground_texture(width, height, rgba, is_software_rasteriser(device_name()));
     if (!texture) return texture.error();
     state_->textures.ground = std::move(*texture);
+    state_->has_textures = true;
     state_->ground.grid_width = grid_width;
     state_->ground.grid_height = grid_height;
     state_->ground.lead = lead;
@@ -136,6 +139,7 @@ void Renderer::set_detail(const SurfaceDetail& detail) {
     state_->in_flight.wait();
     state_->ground.detail = detail;
     state_->textures.patterns = make_patterns(detail, is_software_rasteriser(device_name()));
+    state_->has_textures = true;
     ++state_->allocations_since_draw;
 }
 
@@ -172,7 +176,8 @@ void Renderer::draw(const lod::View& view, const lod::DrawList& list, const Atmo
     clear(state.target, atmosphere.clear_colour);
     glBindFramebuffer(GL_FRAMEBUFFER, state.target.framebuffer.id());
     glViewport(0, 0, state.target.width_px, state.target.height_px);
-    submit(state.pool, state.textures, state.pass);
+    const bool has_air = atmosphere.draw_sky || std::isfinite(atmosphere.visibility_m);
+    submit(state.pool, state.textures, {state.has_textures, has_air}, state.pass);
     state.in_flight.place();
 
     state.drawn_near_m = view.near_m;

@@ -39,7 +39,7 @@ struct Atmosphere {
     glm::dvec3 sun_world{0.0, 0.0, 1.0};       ///< towards the sun, unit length
     glm::dvec3 up_world{0.0, 0.0, 1.0};        ///< local vertical at the eye, unit length
     glm::vec3 clear_colour{1.0f, 0.0f, 1.0f};  ///< magenta where nothing is drawn: holes show
-    double visibility_m = 40000.0;             ///< distance at which haze leaves 5 % of the contrast
+    double visibility_m = 40000.0;             ///< distance at which haze leaves 5 % of the contrast; infinite: none
     double eye_height_m = 0.0;                 ///< above the ground's datum, thins the haze
     glm::ivec2 ground_sample{0};               ///< column and row near the eye, where detail is most exact
     bool draw_sky = true;                      ///< false: `clear_colour` shows wherever no item draws
@@ -107,7 +107,8 @@ class Renderer {
     lod::Result<lod::Ok> resize_pool(const PoolCapacity& pool);
 
     /// Waits for the previous frame where it still reads what will be overwritten, places the writes, submits
-    /// the list's items with one indirect draw: opaque, then the sky, then glass. Glass writes depth, too.
+    /// the list's items with one indirect draw: opaque, then the sky, then glass from the last to the first. Glass
+    /// writes depth, too.
     /// CHECKs that the view has the renderer's size and the writes lie in the pool.
     void draw(const lod::View& view, const lod::DrawList& list, const Atmosphere& atmosphere);
 

@@ -23,8 +23,13 @@ std::string constant(const char* name, double value) {
     return "const float " + std::string(name) + " = " + std::to_string(value) + ";\n";
 }
 
-std::string preamble() {
-    return "#version 450 core\n" + constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
+std::string constant(const char* name, bool value) {
+    return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
+}
+
+std::string preamble(const ShaderFeatures& features) {
+    return "#version 450 core\n" + constant("kHasTextures", features.has_textures) +
+           constant("kHasAir", features.has_air) + constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
            constant("kRoof", lod::Material::kRoof) + constant("kPaint", lod::Material::kPaint) +
            constant("kGlow", lod::Material::kGlow) + constant("kGlass", lod::Material::kGlass) +
            constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot) +
@@ -40,8 +45,7 @@ std::string first_line(const std::array<char, 1024>& log) {
     return text.substr(0, text.find('\n'));
 }
 
-lod::Result<lod::Ok> compile(GLuint shader, const char* body, const char* name) {
-    const std::string head = preamble();
+lod::Result<lod::Ok> compile(GLuint shader, const std::string& head, const char* body, const char* name) {
     const std::array<const char*, 3> parts{head.c_str(), glsl::kFrame, body};
     glShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
     glCompileShader(shader);
@@ -91,11 +95,12 @@ lod::Result<lod::Ok> check_layout(GLuint program) {
 
 }  // namespace
 
-lod::Result<Program> make_scene_program() {
+lod::Result<Program> make_scene_program(const ShaderFeatures& features) {
+    const std::string head = preamble(features);
     const VertexShader vertex = VertexShader::create();
     const FragmentShader fragment = FragmentShader::create();
-    if (auto ok = compile(vertex.id(), glsl::kSceneVertex, "scene.vert"); !ok) return ok.error();
-    if (auto ok = compile(fragment.id(), glsl::kSceneFragment, "scene.frag"); !ok) return ok.error();
+    if (auto ok = compile(vertex.id(), head, glsl::kSceneVertex, "scene.vert"); !ok) return ok.error();
+    if (auto ok = compile(fragment.id(), head, glsl::kSceneFragment, "scene.frag"); !ok) return ok.error();
 
     Program program = Program::create();
     glAttachShader(program.id(), vertex.id());

@@ -129,14 +129,15 @@ void record_fronts(Stage& stage, FrameRecord& record) {
     record.commands = stage.renderer.stats().commands;
 }
 
-/// Fills the draw list; makes the pool grow first when a front outgrew its region.
+/// Fills the draw list, the cockpit first and the ground last: what stands in front is drawn before what it hides, which
+/// is then not shaded. Makes the pool grow first when a front outgrew its region.
 lod::Result<lod::Ok> emit_all(Stage& stage, const lod::View& view) {
     if (has_outgrown(stage)) {
         if (auto grown = stage.renderer.resize_pool(share_out(stage)); !grown) return grown.error();
     }
     stage.list.clear();
-    for (lod::Front* front : stage.fronts)
-        front->emit(view, stage.list);
+    for (auto front = stage.fronts.rbegin(); front != stage.fronts.rend(); ++front)
+        (*front)->emit(view, stage.list);
     return lod::Ok{};
 }
 

@@ -1,5 +1,6 @@
 // Every fragment of the scene: surface, then the air in front of it. The sky is nothing but air, so whatever the
-// haze swallows turns into exactly the sky behind it. No branches: a software rasteriser pays for every one.
+// haze swallows turns into exactly the sky behind it. Branches only on constants (kHasTextures, kHasAir): a software
+// rasteriser pays for both sides of every other.
 
 layout(location = 0) out vec4 out_colour;  // display values, premultiplied
 
@@ -30,7 +31,16 @@ vec3 air(float height, float towards_sun) {
     return mix(colour, kSunGlow, 0.22 * sun_8 * low_4 + 0.20 * sun_64 + 0.42 * sun_256 * sun_256 * sun_256);
 }
 
-void main() {
+// What textures multiply a surface's colour by.
+vec3 structure() {
+    vec2 place = v_place_haze.xy;
+    vec4 base = max(texture(ground, place * ground_grid.xy + ground_grid.zw), vec4(v_pattern.w));
+    vec3 detail = texture(patterns, vec3(place - v_pattern.xy, v_pattern.z)).rgb * kPerNeutral - 1.0;
+    return base.rgb * (1.0 + base.a * detail);
+}
+
+// A premultiplied colour as seen through the air in front of it.
+vec4 through_air(vec4 colour) {
     vec2 slope = gl_FragCoord.xy * ray.xy + ray.zw;
     float length_2 = dot(slope, slope) + 1.0;
     float to_unit = inversesqrt(length_2);
@@ -41,13 +51,13 @@ void main() {
     float share = 1.0 - exp2(-v_place_haze.z * distance);
     float disc = clamp((towards_sun - sun_eye.w) * 6e4, 0.0, 1.0);
     vec3 behind = mix(air(height, towards_sun), kSunDisc, share < 1.0 ? 0.0 : disc);
-
-    vec2 place = v_place_haze.xy;
-    vec4 base = max(texture(ground, place * ground_grid.xy + ground_grid.zw), vec4(v_pattern.w));
-    vec3 detail = texture(patterns, vec3(place - v_pattern.xy, v_pattern.z)).rgb * kPerNeutral - 1.0;
-    vec3 surface = v_colour.rgb * base.rgb * (1.0 + base.a * detail);
-    vec3 colour = mix(surface, behind * v_colour.a, share);
     // Half a display step of noise where the air rules, so that its gradient shows no bands.
     float noise = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403)));
-    out_colour = vec4(colour + (noise - 0.5) * (share / 255.0), v_colour.a);
+    return vec4(mix(colour.rgb, behind * colour.a, share) + (noise - 0.5) * (share / 255.0), colour.a);
+}
+
+void main() {
+    out_colour = v_colour;
+    if (kHasTextures) out_colour.rgb *= structure();
+    if (kHasAir) out_colour = through_air(out_colour);
 }

@@ -1,4 +1,4 @@
-// Every vertex of the scene. The preamble (shaders.cpp) gives #version, extensions and the kMaterial constants.
+// Every vertex of the scene. The preamble (shaders.cpp) gives #version and the constants.
 
 // lod::Vertex
 layout(location = 0) in vec3 position_hi;

@@ -1,6 +1,7 @@
 #include "sim/compare/race.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/progress.h"
 
@@ -37,6 +38,7 @@ render::Atmosphere clear_air(const lod::View& view) {
     render::Atmosphere air;
     air.up_world = air.sun_world = glm::transpose(view.eye_from_world)[1];
     air.draw_sky = false;
+    air.visibility_m = std::numeric_limits<double>::infinity();
     return air;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "lod/scheduler.h"
@@ -41,7 +42,7 @@ render::Atmosphere clear_air() {
     render::Atmosphere air;
     air.sun_world = glm::normalize(glm::dvec3(-0.3, -0.5, 0.8));
     air.clear_colour = {0.5f, 0.6f, 0.8f};
-    air.visibility_m = 1e7;
+    air.visibility_m = std::numeric_limits<double>::infinity();
     air.draw_sky = false;
     return air;
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 #include <vector>
 
 #include "lod/scheduler.h"
@@ -77,7 +78,7 @@ class City {
         budget_.tolerance_px = tolerance_px;
         front_.place(front_.pool_need());
         air_.draw_sky = false;
-        air_.visibility_m = 1e7;
+        air_.visibility_m = std::numeric_limits<double>::infinity();
         air_.clear_colour = {0.5f, 0.6f, 0.8f};
         air_.sun_world = glm::normalize(glm::dvec3(0.5, 0.3, 0.81));
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "lod/front.h"
 #include "render/renderer.h"
@@ -37,7 +38,7 @@ class FlightPicture {
         front.emit(view, list_);
         render::Atmosphere vacuum;
         vacuum.draw_sky = false;
-        vacuum.visibility_m = 1e15;
+        vacuum.visibility_m = std::numeric_limits<double>::infinity();
         renderer_.draw(view, list_, vacuum);
         renderer_.finish();
     }

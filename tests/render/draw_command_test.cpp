@@ -35,7 +35,7 @@ TEST(DrawCommand, NothingToDrawGivesNoCommand) {
     EXPECT_TRUE(build({{.index_count = 0}, {.index_count = 0, .is_glass = true}}, std::nullopt).empty());
 }
 
-TEST(DrawCommand, SkyComesAfterOpaqueAndBeforeGlass) {
+TEST(DrawCommand, SkyComesAfterOpaqueAndBeforeGlassBackwards) {
     const auto commands = build({{.index_count = 3, .first_index = 1, .is_glass = true},
                                  {.index_count = 3, .first_index = 2},
                                  {.index_count = 3, .first_index = 3, .is_glass = true},
@@ -44,10 +44,10 @@ TEST(DrawCommand, SkyComesAfterOpaqueAndBeforeGlass) {
     std::vector<uint32_t> order;
     for (const DrawCommand& command : commands)
         order.push_back(command.first_index);
-    EXPECT_EQ(order, (std::vector<uint32_t>{2, 4, 99, 1, 3}));
+    EXPECT_EQ(order, (std::vector<uint32_t>{2, 4, 99, 3, 1}));
 }
 
-TEST(DrawCommand, RandomListsMatchAStablePartition) {
+TEST(DrawCommand, RandomListsAreOpaqueInOrderThenGlassBackwards) {
     lod::Rng rng(2);
     for (int round = 0; round < 200; ++round) {
         std::vector<lod::DrawItem> items(rng.below(40));
@@ -59,8 +59,9 @@ TEST(DrawCommand, RandomListsMatchAStablePartition) {
         }
         const auto commands = build(items, std::nullopt);
         std::erase_if(items, [](const lod::DrawItem& item) { return item.index_count == 0; });
-        std::stable_partition(items.begin(), items.end(),
-                              [](const lod::DrawItem& item) { return !item.is_glass; });
+        const auto glass = std::stable_partition(items.begin(), items.end(),
+                                                 [](const lod::DrawItem& item) { return !item.is_glass; });
+        std::reverse(glass, items.end());
         ASSERT_EQ(commands.size(), items.size()) << "round " << round;
         for (size_t i = 0; i < items.size(); ++i) {
             EXPECT_EQ(commands[i].first_index, items[i].first_index) << "round " << round;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,7 +73,7 @@ inline void prepare(const lod::View& view, Scene& scene) {
 /// Clear air, no sky: what is drawn is what was asked for.
 inline render::Atmosphere vacuum() {
     render::Atmosphere atmosphere;
-    atmosphere.visibility_m = 1e15;
+    atmosphere.visibility_m = std::numeric_limits<double>::infinity();
     atmosphere.draw_sky = false;
     return atmosphere;
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "data/ground_height.h"
 #include "lod/base/rng.h"
@@ -37,7 +38,7 @@ class CrackRig {
     /// @param grid, front  must outlive the rig
     CrackRig(const data::HeightGrid& grid, lod::Front& front, render::Renderer renderer)
         : grid_(grid), front_(front), renderer_(std::move(renderer)) {
-        air_.visibility_m = 1e15;
+        air_.visibility_m = std::numeric_limits<double>::infinity();
         air_.draw_sky = false;
     }
 
