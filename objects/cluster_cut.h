@@ -12,8 +12,11 @@ namespace objects {
 /// A cluster of the cut, or above it. 56 bytes.
 struct CutRecord {
     ClusterId id = kNoCluster;
-    bool is_refined = false;  ///< its children stand for it
-    bool is_seen = false;     ///< in view of some eye, by its sphere
+    bool is_refined = false;   ///< its children stand for it
+    bool is_seen = false;      ///< in view of some eye, by its sphere, and not hidden from it
+    bool is_hidden = false;    ///< from some eye, behind solids of others
+    bool is_occluder = false;  ///< its solids hide others
+    bool has_event = false;    ///< its presence was looked up in this frame
     Presence presence;        ///< v_c now
     double error_px = 0.0;    ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
 

@@ -19,8 +19,8 @@ bool are_same(std::span<const lod::View> a, std::span<const lod::View> b) {
 
 }  // namespace
 
-ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
-    : tree_(std::move(tree)), place_(place), cut_(tree_.clusters.size()) {
+ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place, bool looks_through)
+    : tree_(std::move(tree)), place_(place), looks_through_(looks_through), cut_(tree_.clusters.size()) {
     CHECK(!tree_.clusters.empty());
     add(kRootCluster);
 }
@@ -28,6 +28,7 @@ ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
 void ClusterFront::stand_at(const ScenePlace& place) {
     place_ = place;
     views_.clear();  // what was seen was seen elsewhere
+    occlusion_.clear();
 }
 
 void ClusterFront::look_up_presence(CutRecord& record) {
@@ -36,15 +37,23 @@ void ClusterFront::look_up_presence(CutRecord& record) {
 }
 
 void ClusterFront::evaluate(CutRecord& record) {
-    record.is_seen = false;
+    record.is_seen = record.is_hidden = false;
     record.error_px = 0.0;
     if (record.presence.share <= 0.0 || sights_.empty()) return;
     ++evaluations_;
     const Cluster& cluster = tree_.clusters[record.id];
-    const ClusterSight sight =
-        sight_of(sights_, sphere_at(tree_, cluster, time_s_), timed_error_m(cluster, record.presence.share));
-    record.is_seen = sight.is_seen;
-    record.error_px = sight.error_px;
+    const SceneSphere sphere = sphere_at(tree_, cluster, time_s_);
+    const double error_m = timed_error_m(cluster, record.presence.share);
+    for (size_t eye = 0; eye < sights_.size(); ++eye) {
+        const ClusterSight sight = sight_of({&sights_[eye], 1}, sphere, error_m);
+        if (!sight.is_seen) continue;
+        if (occlusion_.hides(tree_, eye, sights_[eye], cluster, time_s_)) {
+            record.is_hidden = true;
+            continue;
+        }
+        record.is_seen = true;
+        record.error_px = std::max(record.error_px, sight.error_px);
+    }
 }
 
 void ClusterFront::count_triangles(const CutRecord& record, int64_t sign) {
@@ -73,6 +82,7 @@ void ClusterFront::add(ClusterId id) {
 
 void ClusterFront::remove(ClusterId id) {
     const CutRecord& record = cut_.at(id);
+    is_uncovered_ = is_uncovered_ || record.is_occluder;
     count_triangles(record, -1);
     if (!record.is_refined) hash_ -= cluster_hash(id);
     cut_.remove(id);
@@ -81,10 +91,13 @@ void ClusterFront::remove(ClusterId id) {
 void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
     jump_px_ = 0.0;
+    rest_px_ = worst_error_px();
     const double time = clamped_time(tree_, time_s);
     const bool is_new_time = time != time_s_;
     const bool is_new_view = !are_same(views, views_);
-    if (!is_new_time && !is_new_view) return;
+    // Looking at everything again for what may be hidden by now pays when much has changed.
+    const bool looks_at_all = is_new_view || (!looks_through_ && changes_ > cut_.size() / 8);
+    if (!is_new_time && !looks_at_all) return;
     time_s_ = time;
     if (is_new_view) {
         views_.assign(views.begin(), views.end());
@@ -96,13 +109,19 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     cheapest_.clear();
     to_open_.clear();
     for (CutRecord& record : cut_) {
-        const bool has_event = !record.presence.holds_at(time);
-        if (has_event) {
-            count_triangles(record, -1);
-            look_up_presence(record);
-            count_triangles(record, 1);
-        }
-        if (is_new_view || has_event || tree_.moves(record.id)) evaluate(record);
+        record.has_event = !record.presence.holds_at(time);
+        if (!record.has_event) continue;
+        count_triangles(record, -1);
+        look_up_presence(record);
+        count_triangles(record, 1);
+        is_uncovered_ = is_uncovered_ || record.is_occluder;
+    }
+    const bool hides_anew = !looks_through_ && (looks_at_all || occlusion_.moves() || is_uncovered_);
+    if (hides_anew) cover();
+    if (looks_at_all) changes_ = 0;
+    for (CutRecord& record : cut_) {
+        const bool may_differ = record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden);
+        if (looks_at_all || may_differ) evaluate(record);
         offer(record);
         if (!record.is_refined && needs_children(record)) to_open_.push_back(record.id);
     }
@@ -110,13 +129,40 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
         open(id);
 }
 
-double ClusterFront::refine_error_px() {
+/// From now on solids of what is drawn now hide.
+void ClusterFront::cover() {
+    occlusion_.begin(tree_, views_, sights_, {cut_.begin(), cut_.end()}, time_s_);
+    is_uncovered_ = false;
+}
+
+/// Looks again at what was hidden when something that hid it is no longer drawn.
+void ClusterFront::settle_hidden() {
+    if (!is_uncovered_) return;
+    cover();
+    to_open_.clear();
+    for (CutRecord& record : cut_) {
+        if (!record.is_hidden) continue;
+        evaluate(record);
+        offer(record);
+        if (!record.is_refined && needs_children(record)) to_open_.push_back(record.id);
+    }
+    for (ClusterId id : to_open_)
+        open(id);
+}
+
+double ClusterFront::worst_error_px() {
     for (; !worst_.is_empty(); worst_.pop()) {
         const ClusterId id = worst_.top();
         if (cut_.holds(id) && !cut_.at(id).is_refined && cut_.at(id).error_px == worst_.top_error_px())
             return worst_.top_error_px();
     }
     return 0.0;
+}
+
+double ClusterFront::refine_error_px() {
+    constexpr double kNearRest = 2.0;  // settled now, what comes to light can still be refined
+    if (is_uncovered_ && worst_error_px() <= kNearRest * rest_px_) settle_hidden();
+    return worst_error_px();
 }
 
 double ClusterFront::coarsen_error_px() {
@@ -148,6 +194,8 @@ uint32_t ClusterFront::open(ClusterId id) {
         CutRecord& record = cut_.at(top);
         count_triangles(record, -1);
         record.is_refined = true;
+        is_uncovered_ = is_uncovered_ || record.is_occluder;
+        ++changes_;
         hash_ -= cluster_hash(top);
         offer(record);
         const Cluster& cluster = tree_.clusters[top];
@@ -188,6 +236,7 @@ uint32_t ClusterFront::take_back(ClusterId id) {
     }
     CutRecord& record = cut_.at(id);
     record.is_refined = false;
+    ++changes_;
     hash_ += cluster_hash(id);
     count_triangles(record, 1);
     offer(record);

@@ -15,6 +15,10 @@
 // in, forwards, backwards or by a jump. What the eye sees is evaluated anew for the cut alone, some thousands of
 // records whatever the scene holds; when neither eye nor anything else has moved, not at all.
 //
+// What solids hide (cluster_occlusion.h) is neither refined nor drawn. Solids of what was drawn in the frame before hide it;
+// where one of these is refined away in this frame, all that was hidden is looked at again once errors have come down to
+// where they stood in the frame before, and before anything is drawn.
+//
 // Source: Semenov, Shutkin, Zolotov et al. (2020), section 2 and appendix 1. Differs from it in: a state between
 // frames, a budget, moving clusters.
 #pragma once
@@ -24,6 +28,7 @@
 
 #include "lod/front.h"
 #include "objects/cluster_cut.h"
+#include "objects/cluster_occlusion.h"
 #include "objects/scene_view.h"
 
 namespace objects {
@@ -32,7 +37,8 @@ class ClusterFront final : public lod::Front {
   public:
     /// @param tree   kept; at least a root
     /// @param place  a rotation, orthonormal, and a finite origin
-    ClusterFront(ClusterTree tree, const ScenePlace& place);
+    /// @param looks_through  true: nothing hides anything
+    ClusterFront(ClusterTree tree, const ScenePlace& place, bool looks_through = false);
 
     /// Moves the whole scene; the next frame sees everything anew. @param place  as for the constructor
     void stand_at(const ScenePlace& place);
@@ -75,11 +81,19 @@ class ClusterFront final : public lod::Front {
     bool needs_children(const CutRecord& record) const;
     uint32_t open(ClusterId id);
     uint32_t take_back(ClusterId id);
+    void cover();
+    void settle_hidden();
+    double worst_error_px();
     void emit_writes(lod::DrawList& out);
 
     ClusterTree tree_;
     ScenePlace place_;
+    bool looks_through_;
     ClusterCut cut_;
+    ClusterOcclusion occlusion_;
+    bool is_uncovered_ = false;  ///< some occluder is no longer drawn
+    double rest_px_ = 0.0;       ///< error that the frame before was left with
+    uint64_t changes_ = 0;       ///< clusters opened and taken back since all of the cut was looked at
     CutQueue worst_{true}, cheapest_{false};
 
     std::vector<lod::View> views_;  ///< of this frame

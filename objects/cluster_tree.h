@@ -17,6 +17,7 @@
 // Source: Semenov, Shutkin, Zolotov et al., Visualization of large scenes with deterministic dynamics (2020).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -47,6 +48,13 @@ struct FacingRange {
 };
 static_assert(sizeof(FacingRange) == 24);
 
+/// Convex, closed and opaque: what lies behind the hull of these corners is hidden by the geometry.
+struct Solid {
+    static constexpr uint32_t kMostCorners = 16;
+    std::array<uint32_t, kMostCorners> corners{};  ///< vertices of the geometry
+    uint32_t corner_count = 0;                     ///< four at least
+};
+
 /// Ranges of ClusterTree::vertices and indices. Indices count from the geometry's first vertex; those of glass come
 /// last. A geometry without triangles is one of an object that has none.
 struct ClusterGeometry {
@@ -54,6 +62,7 @@ struct ClusterGeometry {
     uint32_t first_index = 0, index_count = 0;    ///< three a triangle, glass included
     uint32_t glass_index_count = 0;               ///< the last so many
     uint32_t first_facing = 0, facing_count = 0;  ///< of ClusterTree::facings; none: seen from anywhere
+    uint32_t first_solid = 0, solid_count = 0;    ///< of ClusterTree::solids
     glm::vec3 centre{0.0f};  ///< of a sphere that holds the vertices, when there are facings
     float radius_m = 0.0f;
 };
@@ -97,6 +106,7 @@ struct ClusterTree {
     std::vector<lod::Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<FacingRange> facings;
+    std::vector<Solid> solids;
 
     /// A motion is a range of keys: one key is a place for ever; the rest as TimedScene says.
     std::vector<data::IndexRange> motions;

@@ -52,6 +52,17 @@ std::string fault_of_geometry(const ClusterTree& tree, const ClusterGeometry& ge
         if (tree.indices[geometry.first_index + i] >= geometry.vertex_count)
             return "an index outside its geometry; expected one of its vertices";
     }
+    if (uint64_t{geometry.first_solid} + geometry.solid_count > tree.solids.size())
+        return "a geometry outside its solids; expected a range of the file's";
+    for (uint32_t i = 0; i < geometry.solid_count; ++i) {
+        const Solid& solid = tree.solids[geometry.first_solid + i];
+        if (solid.corner_count < 4 || solid.corner_count > Solid::kMostCorners)
+            return "a solid of " + std::to_string(solid.corner_count) + " corners; expected 4 to 16";
+        for (uint32_t k = 0; k < solid.corner_count; ++k) {
+            if (solid.corners[k] >= geometry.vertex_count)
+                return "a solid's corner outside its geometry; expected one of its vertices";
+        }
+    }
     if (geometry.facing_count == 0) return {};
     if (uint64_t{geometry.first_facing} + geometry.facing_count > tree.facings.size() ||
         !is_finite(geometry.centre) || !(geometry.radius_m >= 0.0f))

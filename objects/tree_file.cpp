@@ -6,14 +6,14 @@ namespace objects {
 namespace {
 
 constexpr lod::Seal kSeal{
-    {'H', 'a', 'r', 'r', 'i', 'e', 'r', 'C'}, 2, "a cluster tree", "harrier objects build"};
+    {'H', 'a', 'r', 'r', 'i', 'e', 'r', 'C'}, 3, "a cluster tree", "harrier objects build"};
 
 /// All of a tree, in the file's order.
 template <typename Tree, typename Values, typename Arrays>
 void for_each_part(Tree& tree, const Values& value, const Arrays& array) {
     value(tree.end_s), value(tree.origin_site), value(tree.object_count);
     array(tree.clusters), array(tree.geometries), array(tree.vertices), array(tree.indices);
-    array(tree.facings);
+    array(tree.facings), array(tree.solids);
     array(tree.motions), array(tree.keys);
     array(tree.visibilities), array(tree.step_time_s), array(tree.step_value), array(tree.step_integral_s);
 }

@@ -15,6 +15,7 @@ constexpr double kGapShare = 1e-5;   ///< of the extent: points that near are on
 constexpr double kDentShare = 1e-5;  ///< … a corner may lie so far outside a face
 constexpr size_t kMostFaces = 512;   ///< of a part that is looked at
 constexpr size_t kFewestFaces = 8;   ///< of closed solids in a geometry: with fewer nothing is won
+constexpr size_t kMostSolids = 4;     ///< of a geometry that are kept to hide what is behind them
 constexpr float kSteepCos = 0.7f;    ///< what looks up or down more than that
 constexpr uint32_t kRest = 0, kUp = 1, kFirstAround = 2, kAround = 16;
 constexpr uint32_t kDown = kFirstAround + kAround, kBins = kDown + 1;
@@ -64,6 +65,43 @@ uint32_t bin_of(const glm::dvec3& normal) {
     return kFirstAround + std::min(static_cast<uint32_t>(kAround * share), kAround - 1);
 }
 
+/// Corners that reach farthest in sixteen directions, half of them upwards: the hull of some of a convex solid's corners
+/// lies inside it.
+Solid solid_of(const FaceSoup& soup, std::span<const uint32_t> faces) {
+    Solid solid;
+    for (uint32_t i = 0; i < Solid::kMostCorners; ++i) {
+        const double angle = 2.0 * std::numbers::pi * double(i / 2) / (Solid::kMostCorners / 2);
+        const glm::dvec3 direction(std::cos(angle), std::sin(angle), i % 2 == 0 ? 1.0 : -1.0);
+        uint32_t farthest = soup.faces[faces[0]][0];
+        for (const uint32_t face : faces) {
+            for (const uint32_t corner : soup.faces[face]) {
+                if (glm::dot(soup.points[corner] - soup.points[farthest], direction) > 0.0) farthest = corner;
+            }
+        }
+        const auto end = solid.corners.begin() + solid.corner_count;
+        if (std::find(solid.corners.begin(), end, farthest) == end)
+            solid.corners[solid.corner_count++] = farthest;
+    }
+    return solid;
+}
+
+double width_m(const FaceSoup& soup, const Solid& solid) {
+    glm::dvec3 low = soup.points[solid.corners[0]], high = low;
+    for (uint32_t i = 1; i < solid.corner_count; ++i) {
+        low = glm::min(low, soup.points[solid.corners[i]]);
+        high = glm::max(high, soup.points[solid.corners[i]]);
+    }
+    return glm::length(high - low);
+}
+
+/// The largest ones, the very largest first.
+void keep_largest(const FaceSoup& soup, std::vector<Solid>& solids) {
+    std::stable_sort(solids.begin(), solids.end(), [&soup](const Solid& a, const Solid& b) {
+        return width_m(soup, a) > width_m(soup, b);
+    });
+    if (solids.size() > kMostSolids) solids.resize(kMostSolids);
+}
+
 /// The cone and the offset that all faces of a bin share.
 FacingRange range_over(const FaceSoup& soup, std::span<const uint32_t> faces, const glm::dvec3& centre) {
     FacingRange range;
@@ -103,12 +141,15 @@ Facings sort_by_facing(std::span<const lod::Vertex> vertices, std::span<uint32_t
         const bool is_solid = part.size() <= kMostFaces && is_closed(soup, part, welded.point_of) &&
                               is_convex(soup, part, kDentShare * extent_m);
         closed += is_solid ? part.size() : 0;
+        if (const Solid solid = is_solid ? solid_of(soup, part) : Solid{}; solid.corner_count >= 4)
+            out.solids.push_back(solid);
         for (const uint32_t face : part) {
             const glm::dvec3 normal = plane_of(soup.view().triangle(face)).normal;
             bins[is_solid && normal != glm::dvec3(0.0) ? bin_of(normal) : kRest].push_back(face);
         }
     }
-    if (closed < kFewestFaces) return out;
+    if (closed < kFewestFaces) return {};
+    keep_largest(soup, out.solids);
     const glm::dvec3 centre = 0.5 * (low + high);
     out.centre = glm::vec3(centre);
     out.radius_m = static_cast<float>(0.5 * extent_m * (1.0 + 1e-5));

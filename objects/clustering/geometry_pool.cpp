@@ -168,6 +168,9 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
     added.centre = geometry.facings.centre;
     added.radius_m = geometry.facings.radius_m;
     facings_.insert(facings_.end(), geometry.facings.ranges.begin(), geometry.facings.ranges.end());
+    added.first_solid = static_cast<uint32_t>(solids_.size());
+    added.solid_count = static_cast<uint32_t>(geometry.facings.solids.size());
+    solids_.insert(solids_.end(), geometry.facings.solids.begin(), geometry.facings.solids.end());
     const uint32_t id = static_cast<uint32_t>(geometries_.size());
     geometries_.push_back(added);
     by_hash_.emplace(hash, id);
@@ -177,6 +180,7 @@ uint32_t GeometryPool::add(const DrawnGeometry& geometry) {
 void GeometryPool::move_to(ClusterTree& tree) {
     tree.geometries = std::move(geometries_);
     tree.facings = std::move(facings_);
+    tree.solids = std::move(solids_);
     tree.vertices = vertices_.release();
     tree.indices = indices_.release();
     *this = GeometryPool();

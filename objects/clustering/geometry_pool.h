@@ -42,6 +42,7 @@ class GeometryPool {
 
     std::vector<ClusterGeometry> geometries_;
     std::vector<FacingRange> facings_;
+    std::vector<Solid> solids_;
     GrowingArray<lod::Vertex> vertices_;
     GrowingArray<uint32_t> indices_;
     std::unordered_multimap<uint64_t, uint32_t> by_hash_;

@@ -1,0 +1,64 @@
+// OcclusionMap: which pixels of a picture are covered by convex solids, and how far away these are at the most: what lies
+// behind them as a whole need neither be refined nor drawn.
+//
+//     cell   8 x 8 pixels:   covered  a bit a pixel, by the solids so far       part_depth  the farthest of these
+//                            full_depth  the nearest depth in front of which all 64 are known to be covered
+//
+// A pixel counts as covered when its centre lies inside the outline of one solid, a 64th of a pixel from its edge at least:
+// then a rasteriser that puts its corners on 1/256 pixel covers it, too. So leaving out what is hidden changes no pixel
+// of a picture in which the solids themselves are drawn.
+//
+// Source: the cells are those of Hasselgren, Andersson, Akenine-Moeller, Masked software occlusion culling (2016), with
+// outlines instead of triangles and one depth a solid.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "lod/view.h"
+
+namespace lod {
+
+class OcclusionMap {
+  public:
+    static constexpr size_t kMostCorners = 16;
+
+    /// Empties the map for a picture. Cost: 16 bytes for each 64 pixels.
+    void begin(const ViewMetric& metric, int width_px, int height_px);
+
+    /// Adds the convex hull of 3 to kMostCorners points. Nothing when one of them is nearer than the near plane. Most
+    /// is hidden in the end when what is near comes first.
+    /// @param corners_eye  eye frame (-z ahead), metres
+    /// Cost: its rows, and the cells they meet.
+    void add_convex(std::span<const glm::dvec3> corners_eye);
+
+    /// Whether solids cover every pixel that the hull of some points may touch, all of them nearer. Never of what reaches
+    /// through the near plane or lies outside the picture.
+    /// @param corners_eye  at least one; as above
+    bool hides(std::span<const glm::dvec3> corners_eye) const;
+
+  private:
+    struct Cell {
+        uint64_t covered = 0;
+        float part_depth_m = 0.0f;
+        float full_depth_m = 0.0f;
+    };
+    /// First and last pixel of a row that are covered; none when first > last.
+    struct Span {
+        int first = 0, last = -1;
+    };
+
+    static void cover(Cell& cell, uint64_t bits, float depth_m, uint64_t outside);
+    uint64_t outside_of(int column, int row) const;
+    void fill(int first_row, int last_row, float depth_m);
+
+    ViewMetric metric_;
+    int width_px_ = 0, height_px_ = 0;
+    int columns_ = 0, rows_ = 0;
+    std::vector<Cell> cells_;  ///< [rows * columns], from the bottom left
+    std::vector<Span> spans_;  ///< [height] scratch: of the solid that is being added
+};
+
+}  // namespace lod

@@ -1,0 +1,46 @@
+// ClusterOcclusion: which clusters are hidden from all eyes by solids of others that are drawn.
+//
+// The largest solids in each picture are its occluders. What is hidden changes no pixel as long as these are drawn: their
+// records are marked, so that whoever takes one away knows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lod/occlusion_map.h"
+#include "objects/cluster_cut.h"
+#include "objects/scene_view.h"
+
+namespace objects {
+
+class ClusterOcclusion {
+  public:
+    /// Fills a map for each eye with solids of what is drawn now.
+    /// @param records  is_occluder is set or cleared in all of them  @param time_s  as for pose_of
+    /// Cost: that of a selection among the records, and of at most 256 outlines an eye.
+    void begin(const ClusterTree& tree, std::span<const lod::View> views, std::span<const SceneView> sights,
+               std::span<CutRecord> records, double time_s);
+    /// From now on nothing is hidden.
+    void clear();
+
+    /// Whether an eye sees nothing of a cluster, as all of its box lies behind solids in that picture.
+    bool hides(const ClusterTree& tree, size_t eye, const SceneView& sight, const Cluster& cluster,
+               double time_s) const;
+
+    /// Whether some of the occluders move: then what they hide changes with the time.
+    bool moves() const { return moves_; }
+
+  private:
+    struct Occluder {
+        CutRecord* record = nullptr;
+        double size_px = 0.0;
+        double depth_m = 0.0;
+    };
+    void select(const ClusterTree& tree, const SceneView& sight, std::span<CutRecord> records, double time_s);
+
+    std::vector<lod::OcclusionMap> maps_;  ///< one an eye
+    bool is_empty_ = true, moves_ = false;
+    std::vector<Occluder> chosen_;  ///< scratch
+};
+
+}  // namespace objects
