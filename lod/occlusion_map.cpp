@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMargin_px = 1.0 / 64.0;
 constexpr double kDepthSlack = 1e-5;  ///< of a depth: positions are rounded when they are drawn
+constexpr double kLeastRows_px = 3.0;  ///< lower solids are left out: they cover no cell
 constexpr uint64_t kAll = ~uint64_t{0};
 
 /// Pixels first … last of one row of a cell, as bits of that row.
@@ -131,11 +132,13 @@ void OcclusionMap::add_convex(std::span<const glm::dvec3> corners_eye) {
         points[i] = glm::dvec2(corners_eye[i]) * (metric_.lambda_px / depth) +
                     0.5 * glm::dvec2(width_px_, height_px_);
     }
-    const Outline outline = outline_of(std::span(points).first(corners_eye.size()));
-    if (outline.count < 3) return;
+    const std::span<glm::dvec2> all = std::span(points).first(corners_eye.size());
     double low = points[0].y, high = low;
-    for (const glm::dvec2& point : std::span(points).first(corners_eye.size()))
+    for (const glm::dvec2& point : all)
         low = std::min(low, point.y), high = std::max(high, point.y);
+    if (high - low < kLeastRows_px) return;
+    const Outline outline = outline_of(all);
+    if (outline.count < 3) return;
     const double last_y = height_px_ - 1;
     const int first_row = static_cast<int>(std::ceil(std::clamp(low + kMargin_px - 0.5, 0.0, last_y + 1.0)));
     const int last_row = static_cast<int>(std::floor(std::clamp(high - kMargin_px - 0.5, -1.0, last_y)));

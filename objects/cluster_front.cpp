@@ -91,7 +91,7 @@ void ClusterFront::remove(ClusterId id) {
 void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
     jump_px_ = 0.0;
-    rest_px_ = worst_error_px();
+    rest_px_ = std::max(worst_error_px(), 0.98 * rest_px_);
     const double time = clamped_time(tree_, time_s);
     const bool is_new_time = time != time_s_;
     const bool is_new_view = !are_same(views, views_);
@@ -119,12 +119,16 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     const bool hides_anew = !looks_through_ && (looks_at_all || occlusion_.moves() || is_uncovered_);
     if (hides_anew) cover();
     if (looks_at_all) changes_ = 0;
+    uint64_t hidden = 0, seen = 0;
     for (CutRecord& record : cut_) {
         const bool may_differ = record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden);
         if (looks_at_all || may_differ) evaluate(record);
+        hidden += record.is_hidden;
+        seen += record.is_seen;
         offer(record);
         if (!record.is_refined && needs_children(record)) to_open_.push_back(record.id);
     }
+    if (looks_at_all) occlusion_.learn(hidden, seen);
     for (ClusterId id : to_open_)
         open(id);
 }
@@ -160,7 +164,7 @@ double ClusterFront::worst_error_px() {
 }
 
 double ClusterFront::refine_error_px() {
-    constexpr double kNearRest = 2.0;  // settled now, what comes to light can still be refined
+    constexpr double kNearRest = 1.02;  // settled here, what comes to light can still be refined
     if (is_uncovered_ && worst_error_px() <= kNearRest * rest_px_) settle_hidden();
     return worst_error_px();
 }

@@ -92,7 +92,7 @@ class ClusterFront final : public lod::Front {
     ClusterCut cut_;
     ClusterOcclusion occlusion_;
     bool is_uncovered_ = false;  ///< some occluder is no longer drawn
-    double rest_px_ = 0.0;       ///< error that the frame before was left with
+    double rest_px_ = 0.0;       ///< error that frames before were left with
     uint64_t changes_ = 0;       ///< clusters opened and taken back since all of the cut was looked at
     CutQueue worst_{true}, cheapest_{false};
 

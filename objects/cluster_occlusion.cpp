@@ -7,7 +7,7 @@ namespace objects {
 
 namespace {
 
-constexpr size_t kMostOccluders = 256;
+constexpr size_t kFewestOccluders = 16, kMostOccluders = 128;
 constexpr double kLeastOccluder_px = 6.0;  ///< radius of its sphere: smaller ones hide little
 
 }  // namespace
@@ -32,9 +32,10 @@ void ClusterOcclusion::select(const ClusterTree& tree, const SceneView& sight,
     const auto is_larger = [](const Occluder& a, const Occluder& b) {
         return a.size_px > b.size_px || (a.size_px == b.size_px && a.record->id < b.record->id);
     };
-    if (chosen_.size() > kMostOccluders) {
-        std::nth_element(chosen_.begin(), chosen_.begin() + kMostOccluders, chosen_.end(), is_larger);
-        chosen_.resize(kMostOccluders);
+    if (chosen_.size() > most_occluders_) {
+        std::nth_element(chosen_.begin(), chosen_.begin() + std::ptrdiff_t(most_occluders_), chosen_.end(),
+                         is_larger);
+        chosen_.resize(most_occluders_);
     }
     std::sort(chosen_.begin(), chosen_.end(), [](const Occluder& a, const Occluder& b) {
         return a.depth_m < b.depth_m || (a.depth_m == b.depth_m && a.record->id < b.record->id);
@@ -71,6 +72,11 @@ void ClusterOcclusion::begin(const ClusterTree& tree, std::span<const lod::View>
             moves_ = moves_ || tree.moves(occluder.record->id);
         }
     }
+}
+
+void ClusterOcclusion::learn(uint64_t hidden, uint64_t seen) {
+    if (4 * hidden > seen) most_occluders_ = std::min(2 * most_occluders_, kMostOccluders);
+    if (8 * hidden < seen) most_occluders_ = std::max(most_occluders_ / 2, kFewestOccluders);
 }
 
 void ClusterOcclusion::clear() {

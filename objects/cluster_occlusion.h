@@ -17,7 +17,7 @@ class ClusterOcclusion {
   public:
     /// Fills a map for each eye with solids of what is drawn now.
     /// @param records  is_occluder is set or cleared in all of them  @param time_s  as for pose_of
-    /// Cost: that of a selection among the records, and of at most 256 outlines an eye.
+    /// Cost: that of a selection among the records, and of at most 128 geometries an eye.
     void begin(const ClusterTree& tree, std::span<const lod::View> views, std::span<const SceneView> sights,
                std::span<CutRecord> records, double time_s);
     /// From now on nothing is hidden.
@@ -26,6 +26,10 @@ class ClusterOcclusion {
     /// Whether an eye sees nothing of a cluster, as all of its box lies behind solids in that picture.
     bool hides(const ClusterTree& tree, size_t eye, const SceneView& sight, const Cluster& cluster,
                double time_s) const;
+
+    /// Says how many of the clusters in view were hidden, so that the next map has more occluders or fewer: they pay in
+    /// streets, hardly from above.
+    void learn(uint64_t hidden, uint64_t seen);
 
     /// Whether some of the occluders move: then what they hide changes with the time.
     bool moves() const { return moves_; }
@@ -40,6 +44,7 @@ class ClusterOcclusion {
 
     std::vector<lod::OcclusionMap> maps_;  ///< one an eye
     bool is_empty_ = true, moves_ = false;
+    size_t most_occluders_ = 64;
     std::vector<Occluder> chosen_;  ///< scratch
 };
 

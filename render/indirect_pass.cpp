@@ -44,13 +44,13 @@ lod::Instance sky_instance() {
     return instance;
 }
 
-/// Reversed depth, infinitely far; premultiplied blending for the whole draw, which opaque surfaces (alpha 1) do
-/// not notice. Both faces are drawn: models with one-sided sheets are common.
-void set_fixed_state() {
+/// Reversed depth, infinitely far; premultiplied blending for the whole draw when there is glass in it, which opaque
+/// surfaces (alpha 1) do not notice. Both faces are drawn: models with one-sided sheets are common.
+void set_state(bool has_glass) {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);  // equal: the sky lies at 0, where the buffer was cleared to
-    glEnable(GL_BLEND);
+    has_glass ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DITHER);
@@ -102,13 +102,15 @@ uint64_t upload_frame(const lod::DrawList& list, const GeometryPool& pool, const
     }
     const size_t count = build_commands(list.items, sky_item, pass.commands.elements());
     pass.command_count = static_cast<uint32_t>(count);
+    pass.has_glass = std::any_of(list.items.begin(), list.items.end(),
+                                 [](const lod::DrawItem& item) { return item.is_glass; });
     pass.instance_count = static_cast<uint32_t>(list.instances.size() + 1);
     return bytes + count * sizeof(DrawCommand);
 }
 
 void submit(const GeometryPool& pool, const SurfaceTextures& textures, const ShaderFeatures& features,
             const IndirectPass& pass) {
-    set_fixed_state();
+    set_state(pass.has_glass);
     glVertexArrayVertexBuffer(pass.vertex_array.id(), kVertexBinding, pool.vertices.id(), 0,
                               sizeof(lod::Vertex));
     glVertexArrayVertexBuffer(pass.vertex_array.id(), kInstanceBinding, pass.instances.id(), 0,

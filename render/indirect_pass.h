@@ -22,6 +22,7 @@ struct IndirectPass {
     MappedArray<FrameBlock> frame;         ///< 1
     uint32_t command_count = 0;            ///< of the last frame, sky included
     uint32_t instance_count = 0;           ///< of the last frame, sky included
+    bool has_glass = false;                ///< in the last frame
 };
 
 lod::Result<IndirectPass> make_indirect_pass(uint32_t command_capacity);
