@@ -62,11 +62,11 @@ inline data::TimedMesh upright_prism(uint32_t sides, double radius_m, double hei
 }
 
 /// There for ever; always the same.
-inline data::TimedScene prism_city() {
+inline data::TimedScene prism_city(uint32_t objects = kCityObjects, uint32_t columns = kCityColumns) {
     data::TimedScene scene;
     scene.end_s = 1.0;
     lod::Rng rng(1);
-    for (uint32_t i = 0; i < kCityObjects; ++i) {
+    for (uint32_t i = 0; i < objects; ++i) {
         const uint32_t sides = city_sides(rng.unit());
         const double radius_m = rng.between(2.0, 4.5);
         const double tall = rng.unit(), taller = rng.unit();
@@ -76,7 +76,7 @@ inline data::TimedScene prism_city() {
         };
         const glm::u8vec4 colour(paint(0.5), paint(0.5), paint(0.5), 255);
         scene.meshes.push_back(upright_prism(sides, radius_m, height_m, turn_rad, colour));
-        const glm::dvec3 at((i % kCityColumns + 0.5) * kCityCell_m, (i / kCityColumns + 0.5) * kCityCell_m,
+        const glm::dvec3 at((i % columns + 0.5) * kCityCell_m, (i / columns + 0.5) * kCityCell_m,
                             0.0);
         scene.keys.push_back({0.0, at, {1.0, 0.0, 0.0, 0.0}});
         scene.objects.push_back({i, {0, 0}, {i, i + 1}, std::to_string(i)});
