@@ -67,6 +67,11 @@ TEST(Recolour, WhatIsFarOrFacesElsewhereDoesNotCount) {
     recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, wall, 0.5), 0.5, wall);
     for (const glm::u8vec4& colour : wall.colours)
         EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 255));
+    FaceSoup pane;
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.1, {10, 20, 30, 128}, pane);  // takes no colour of a wall's
+    recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, pane, 0.5), 0.5, pane);
+    for (const glm::u8vec4& colour : pane.colours)
+        EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 128));
 }
 
 }  // namespace
