@@ -50,8 +50,8 @@ struct Sample {
     uint32_t near = kNoFace;
 };
 
-/// The points that speak for a face, each for as much of its area: its quarters, or more of a face that is long beside
-/// the limit, lest two halves of a wall get different shares of a band of windows.
+/// The points that speak for a face, each for as much of its area: its quarters; of a face that is small beside the limit its
+/// middle alone; more of one that is long, lest two halves of a wall get different shares of a band of windows.
 void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, double limit_m,
                 std::vector<Sample>& out) {
     out.clear();
@@ -59,7 +59,8 @@ void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, 
     const double longest_m =
         std::max({glm::length(t.b - t.a), glm::length(t.c - t.b), glm::length(t.a - t.c)});
     if (!(longest_m > kLongFace * limit_m)) {
-        for (size_t i = 0; i < points.size(); ++i)
+        const size_t count = longest_m > limit_m ? points.size() : 1;
+        for (size_t i = 0; i < count; ++i)
             out.push_back({points[i], nearest[i]});
         return;
     }
