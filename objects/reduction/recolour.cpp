@@ -13,7 +13,7 @@ constexpr double kLeastCosine = 0.5;     ///< 60 degrees: what faces elsewhere i
 constexpr double kOffShare = 1e-5;       ///< of the limit: what lies so near is the face itself …
 constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it
 constexpr double kLongFace = 12.0;       ///< … and what is longer is asked at more points
-constexpr int kPieces = 4;               ///< of each of its sides
+constexpr int kPieces = 8;               ///< of each of its sides
 constexpr double kOutShare = 2.0;        ///< … and what is farther away is something else
 
 /// Twice the area, along the normal.

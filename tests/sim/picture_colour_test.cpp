@@ -54,7 +54,7 @@ void expect_same_colours(const std::string& name, const data::TimedScene& scene,
                     name.c_str(), i / 2, tolerance_px, pixels.mean, pixels.noticeable_share, squares.mean,
                     squares.largest);
         EXPECT_GT(pixels.pixels, 3'000u);
-        EXPECT_LT(2 * seen.drawn_triangles, seen.full_triangles);
+        EXPECT_LT(seen.drawn_triangles, seen.full_triangles);
         EXPECT_LT(pixels.mean, most.mean);
         EXPECT_LT(pixels.noticeable_share, most.noticeable_share);
         EXPECT_LT(squares.mean, most.mean_square);
