@@ -88,8 +88,12 @@ TEST(PictureColour, ConstructionSite) {
 /// Slabs of lawn and paving side by side with roads on them, all of which become sheets.
 data::TimedScene park() {
     objects::FaceSoup lawn, paving, road;
-    objects_test::add_box({-42, -42, -0.3}, {42, 42, 0.0}, {90, 120, 60, 255}, lawn);
-    objects_test::add_box({-42, -42, -0.3}, {42, 42, 0.0}, {186, 181, 171, 255}, paving);
+    for (int i = 0; i < 9; ++i) {
+        const glm::dvec3 low(28.0 * (i % 3) - 42.0, 28.0 * (i / 3) - 42.0, -0.3),
+            high = low + glm::dvec3(28, 28, 0.3);
+        if (i != 4) objects_test::add_box(low, high, {90, 120, 60, 255}, lawn);  // around a pond: no prism
+        objects_test::add_box(low, high, {186, 181, 171, 255}, paving);
+    }
     objects_test::add_box({-250, -4, 0.0}, {250, 4, 0.12}, {84, 84, 88, 255}, road);
     data::TimedScene scene;
     scene.end_s = 1.0;
@@ -110,9 +114,9 @@ data::TimedScene park() {
 /// What is flat keeps the light of its upper side.
 TEST(PictureColour, Park) {
     const Moment moments[] = {
-        {{0.0, -420.0, 120.0}, {0.0, 0.0, 0.0}, 0.0, {{0.1, 0.001, 0.1, 0.2}, {0.1, 0.001, 0.1, 0.2}}},
-        {{600.0, 300.0, 400.0}, {0.0, 0.0, 0.0}, 0.0, {{0.1, 0.001, 0.1, 0.2}, {0.1, 0.001, 0.1, 0.2}}},
-        {{-900.0, 700.0, 900.0}, {0.0, 0.0, 0.0}, 0.0, {{0.1, 0.001, 0.1, 0.2}, {0.1, 0.001, 0.1, 0.2}}},
+        {{0.0, -420.0, 120.0}, {0.0, 0.0, 0.0}, 0.0, {{0.3, 0.01, 0.2, 0.6}, {0.3, 0.01, 0.2, 0.6}}},
+        {{600.0, 300.0, 400.0}, {0.0, 0.0, 0.0}, 0.0, {{0.3, 0.01, 0.2, 0.6}, {0.3, 0.01, 0.2, 0.6}}},
+        {{-900.0, 700.0, 900.0}, {0.0, 0.0, 0.0}, 0.0, {{0.3, 0.01, 0.2, 0.6}, {0.3, 0.01, 0.2, 0.6}}},
     };
     expect_same_colours("park", park(), moments);
 }
