@@ -68,7 +68,8 @@ struct ClusterGeometry {
 };
 
 /// One node. Box and sphere are in the scene frame, but for a cluster that moves (`motion` has several keys): there
-/// they are in the body frame, like its geometry. Both hold everything below it, at every time.
+/// they are in the body frame, like its geometry. Both hold everything below it, at every time. Children of one that moves
+/// may have motions of their own; its error holds at every time at which any of it is there.
 struct Cluster {
     glm::vec3 box_min{0.0f}, box_max{0.0f};  ///< rounded outwards
     glm::vec3 centre{0.0f};                  ///< bounding sphere

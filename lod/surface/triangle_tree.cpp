@@ -28,6 +28,40 @@ double longest_edge_m(const Triangle& t) {
         std::max({squared_distance(t.a, t.b), squared_distance(t.b, t.c), squared_distance(t.c, t.a)}));
 }
 
+constexpr double kBeyondTheWay = 2.0;  ///< no share of it
+constexpr double kSlack = 1e-9;        ///< of a way: boxes are as flat as what is in them
+
+/// The share of a way at which it enters a box.
+/// @param per_way  1 / way
+double share_to_box(const glm::dvec3& from, const glm::dvec3& per_way, const glm::dvec3& low,
+                    const glm::dvec3& high) {
+    double begin = 0.0, end = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::isinf(per_way[axis])) {
+            if (from[axis] < low[axis] || from[axis] > high[axis]) return kBeyondTheWay;
+            continue;
+        }
+        const double a = (low[axis] - from[axis]) * per_way[axis],
+                     b = (high[axis] - from[axis]) * per_way[axis];
+        begin = std::max(begin, std::min(a, b) - kSlack);
+        end = std::min(end, std::max(a, b) + kSlack);
+    }
+    return begin <= end ? begin : kBeyondTheWay;
+}
+
+/// The share of a way at which it meets a triangle.
+/// Source: Möller, Trumbore, Fast, minimum storage ray/triangle intersection (1997).
+double share_to_triangle(const glm::dvec3& from, const glm::dvec3& way, const Triangle& t) {
+    const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, across = glm::cross(way, ac);
+    const double volume = glm::dot(ab, across);
+    if (volume == 0.0) return kBeyondTheWay;
+    const glm::dvec3 at = from - t.a, along = glm::cross(at, ab);
+    const double b = glm::dot(at, across) / volume, c = glm::dot(way, along) / volume,
+                 share = glm::dot(ac, along) / volume;
+    const bool is_met = b >= 0.0 && c >= 0.0 && b + c <= 1.0 && share >= 0.0 && share <= 1.0;
+    return is_met ? share : kBeyondTheWay;
+}
+
 /// What is still to be visited of a tree, nearest on top.
 struct VisitStack {
     struct Entry {
@@ -185,6 +219,25 @@ TriangleHit TriangleTree::any_within(const glm::dvec3& point, double limit_m) co
         });
     if (found == kNothing) return {};
     return {original_[found], std::sqrt(best2)};
+}
+
+TriangleHit TriangleTree::first_on_way(const glm::dvec3& from, const glm::dvec3& to) const {
+    if (is_empty()) return {};
+    const glm::dvec3 way = to - from, per_way = 1.0 / way;
+    double best = kBeyondTheWay;  // shares of the way; descend leaves out what is no nearer
+    uint32_t found = kNothing;
+    descend(
+        nodes_, [&](const Node& node) { return share_to_box(from, per_way, node.low, node.high); }, best,
+        [&](uint32_t i) {
+            const double share = is_shown_[i] ? share_to_triangle(from, way, triangles_[i]) : kBeyondTheWay;
+            if (share < best) {
+                best = share;
+                found = i;
+            }
+            return best == 0.0;
+        });
+    if (found == kNothing) return {};
+    return {original_[found], best * glm::length(way)};
 }
 
 TriangleHit TriangleTree::cover(const Triangle& corners, double enough_m, uint32_t hint) const {

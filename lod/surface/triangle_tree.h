@@ -39,6 +39,10 @@ class TriangleTree {
     /// Any triangle at most `limit_m` from a point; a hit without a triangle if there is none.
     TriangleHit any_within(const glm::dvec3& point, double limit_m) const;
 
+    /// The first triangle on a straight way, whichever side it shows, and how far from the beginning; both ends count.
+    /// Rounding decides at edges and where the way lies in a triangle's plane.
+    TriangleHit first_on_way(const glm::dvec3& from, const glm::dvec3& to) const;
+
     /// The triangle for which the largest of the corners' distances is least. Stops early at one where it is at
     /// most `enough_m`.
     /// @param hint  a triangle to try first, as an earlier answer gave it; any other number: none

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "lod/base/check.h"
+#include "objects/clustering/convoys.h"
 #include "objects/clustering/flatten.h"
 #include "objects/clustering/grouping.h"
 #include "objects/clustering/merge.h"
@@ -58,52 +60,98 @@ void settle_levels(Draft& draft) {
     draft.size_m = std::max(draft.size_m, std::exp2(doublings) * first_m);
 }
 
+/// What a level makes of the clusters of one frame.
+std::vector<uint32_t> raise_level(Draft& draft, const std::vector<uint32_t>& active, uint32_t level) {
+    const Grouping grouping = merges(draft.options, level)
+                                  ? group_neighbours(draft, active, draft.at(level))
+                                  : Grouping{.groups = {}, .waiting = active, .counts = {}};
+    draft.counts.add(grouping.counts);
+    std::vector<uint32_t> released = grouping.waiting;
+    std::vector<uint32_t> next =
+        merge_groups(draft, grouping.groups, level, draft.clusters[active[0]].motion_class, released);
+    const std::vector<uint32_t> alone = reduce_alone(draft, released, level);
+    next.insert(next.end(), alone.begin(), alone.end());
+    return next;
+}
+
 /// Levels of one frame up to a single top.
-/// @param active  clusters of one frame, at least one
-uint32_t build_hierarchy(Draft& draft, std::vector<uint32_t> active, const HierarchyFrame& frame,
-                         const BuildProgress& progress) {
+/// @param active  clusters of one frame and class, at least one
+uint32_t build_hierarchy(Draft& draft, std::vector<uint32_t> active, const BuildProgress& progress) {
     for (uint32_t level = 1; level <= draft.options.levels || active.size() > 1; ++level) {
-        const Grouping grouping = merges(draft.options, level)
-                                      ? group_neighbours(draft, active, draft.at(level))
-                                      : Grouping{.groups = {}, .waiting = active, .counts = {}};
-        draft.counts.add(grouping.counts);
-        std::vector<uint32_t> released = grouping.waiting;
-        std::vector<uint32_t> next = merge_groups(draft, grouping.groups, level, frame, released);
-        const std::vector<uint32_t> alone = reduce_alone(draft, released, level, frame);
-        next.insert(next.end(), alone.begin(), alone.end());
-        active = std::move(next);
+        active = raise_level(draft, active, level);
         if (progress) progress({level, draft.clusters.size(), draft.counts});
     }
     return active[0];
 }
 
-/// Where a body can be: the boxes of its middle's path, wide enough for any turn.
-void sweep(const Draft& draft, uint32_t top, glm::dvec3& low, glm::dvec3& high) {
-    const DraftCluster& body = draft.clusters[top];
-    const glm::dvec3 reach = glm::max(glm::abs(body.box_min), glm::abs(body.box_max));
-    const double radius = glm::length(reach);
-    const data::IndexRange motion = draft.motions[body.motion];
-    for (uint32_t i = motion.begin; i < motion.end; ++i) {
-        const glm::dvec3 at = draft.scene.keys[i].position;
-        low = i == motion.begin ? at - radius : glm::min(low, at - radius);
-        high = i == motion.begin ? at + radius : glm::max(high, at + radius);
+/// Objects with one motion, or several such that have become a convoy.
+struct BodyName {
+    uint32_t motion = 0;
+    bool is_turning = false;
+
+    auto operator<=>(const BodyName&) const = default;
+};
+using Bodies = std::map<BodyName, std::vector<uint32_t>>;  ///< the clusters that stand for each at a level
+
+/// Bodies of one cluster each form convoys, or are reduced alone.
+/// @param bodies    all of them
+/// @param settled   bodies that a single cluster stands for since an earlier level
+void raise_settled(Draft& draft, const std::vector<BodyName>& settled, uint32_t level, Bodies& bodies) {
+    std::map<uint32_t, BodyName> name_of;
+    std::vector<uint32_t> tops;
+    for (const BodyName& name : settled) {
+        tops.push_back(bodies[name][0]);
+        name_of[tops.back()] = name;
+    }
+    const Grouping grouping = merges(draft.options, level)
+                                  ? group_convoys(draft, tops, level)
+                                  : Grouping{.groups = {}, .waiting = tops, .counts = {}};
+    draft.counts.add(grouping.counts);
+    std::vector<uint32_t> released;
+    const std::vector<uint32_t> convoys =
+        merge_groups(draft, grouping.groups, level, data::MotionClass::kDynamic, released);
+    CHECK(released.empty());  // all are there at the same times
+    for (size_t i = 0; i < convoys.size(); ++i) {
+        for (uint32_t member : grouping.groups[i])
+            bodies.erase(name_of[member]);
+        bodies[name_of[grouping.groups[i][0]]] = {convoys[i]};
+    }
+    const std::vector<uint32_t> alone = reduce_alone(draft, grouping.waiting, level);
+    for (size_t i = 0; i < alone.size(); ++i)
+        bodies[name_of[grouping.waiting[i]]] = {alone[i]};
+}
+
+/// All levels of all bodies.
+void build_bodies(Draft& draft, Bodies& bodies, const BuildProgress& progress) {
+    bool is_done = false;
+    for (uint32_t level = 1; level <= draft.options.levels || !is_done; ++level) {
+        std::vector<BodyName> settled, growing;
+        for (const auto& [name, active] : bodies)
+            (active.size() == 1 ? settled : growing).push_back(name);
+        if (level <= draft.options.levels) raise_settled(draft, settled, level, bodies);
+        is_done = true;
+        for (const BodyName& name : growing) {
+            bodies[name] = raise_level(draft, bodies[name], level);
+            is_done = is_done && bodies[name].size() == 1;
+        }
+        if (progress) progress({level, draft.clusters.size(), draft.counts});
     }
 }
 
-/// Movers by body: objects with one motion are one body.
+/// Movers by body; above bodies are clusters that only hold them.
 uint32_t build_movers(Draft& draft, const std::vector<uint32_t>& movers, const BuildProgress& progress) {
-    std::map<uint32_t, std::vector<uint32_t>> bodies;
+    Bodies bodies;
     for (uint32_t id : movers)
-        bodies[draft.clusters[id].motion].push_back(id);
-    std::vector<uint32_t> tops;
-    for (auto& [motion, members] : bodies)
-        tops.push_back(build_hierarchy(draft, members, {motion, data::MotionClass::kDynamic}, {}));
+        bodies[{draft.clusters[id].motion, draft.clusters[id].is_turning}].push_back(id);
+    build_bodies(draft, bodies, progress);
     // Holders live in the scene frame: from here on a body's place is where its path goes.
-    for (uint32_t& top : tops) {
-        const uint32_t holder =
-            hold(draft, {top}, draft.clusters[top].level + 1, data::MotionClass::kDynamic);
-        sweep(draft, top, draft.clusters[holder].box_min, draft.clusters[holder].box_max);
-        top = holder;
+    std::vector<uint32_t> tops;
+    for (const auto& [name, active] : bodies) {
+        const uint32_t top = active[0];
+        tops.push_back(hold(draft, {top}, draft.clusters[top].level + 1, data::MotionClass::kDynamic));
+        const Box swept = swept_box(draft, draft.clusters[top]);
+        draft.clusters[tops.back()].box_min = swept.low;
+        draft.clusters[tops.back()].box_max = swept.high;
     }
     uint32_t level = draft.options.levels + 1;
     while (tops.size() > 1) {
@@ -137,8 +185,7 @@ ClusterTree build_cluster_tree(const data::TimedScene& scene, BuildOptions optio
     for (const data::MotionClass motion_class :
          {data::MotionClass::kStatic, data::MotionClass::kPseudoDynamic}) {
         const std::vector<uint32_t>& members = by_class[static_cast<size_t>(motion_class)];
-        if (!members.empty())
-            tops.push_back(build_hierarchy(draft, members, {kSceneFrame, motion_class}, progress));
+        if (!members.empty()) tops.push_back(build_hierarchy(draft, members, progress));
     }
     const std::vector<uint32_t>& movers = by_class[static_cast<size_t>(data::MotionClass::kDynamic)];
     if (!movers.empty()) tops.push_back(build_movers(draft, movers, progress));

@@ -4,8 +4,9 @@
 //              motions that are equal are stored once
 //     levels   on each, representatives along a Hilbert curve gather neighbours in space and time; groups become
 //              clusters, geometry joined and reduced to a proved bound
-//     movers   objects with equal key frames are one body and have a hierarchy in its frame; bodies get reduced
-//              parents, and clusters that only hold them, by swept boxes and by time
+//     movers   objects with equal key frames are one body and have a hierarchy in its frame; bodies get reduced parents;
+//              those that keep their places in one another's frame become convoys (convoys.h); above them are clusters
+//              that only hold, by swept boxes and by time
 //     tree     the virtual root over static, pseudo-dynamic and moving
 //
 // Sources: Semenov, Shutkin, Zolotov et al. (2020), section 3. Differs from it in: thresholds double from level to level

@@ -151,15 +151,19 @@ void make_leaves(Draft& draft) {
     const data::TimedScene& scene = draft.scene;
     DistinctParts distinct(draft);
     draft.clusters.reserve(scene.objects.size() + scene.objects.size() / 8);
+    const Companions companions(scene);
     std::vector<Stay> stays;
     for (uint32_t i = 0; i < scene.objects.size(); ++i) {
-        stays_of(scene, scene.objects[i], draft.options.least_rest_share * scene.end_s, stays);
+        const data::TimedObject& object = scene.objects[i];
+        stays_of(scene, object, companions.turns(scene, object), draft.options.least_rest_share * scene.end_s,
+                 stays);
         for (const Stay& stay : stays) {
             DraftCluster leaf;
             leaf.object = i;
-            leaf.mesh = scene.objects[i].mesh;
+            leaf.mesh = object.mesh;
             leaf.geometry = draft.meshes[leaf.mesh].geometry;
             leaf.motion_class = stay.motion_class;
+            leaf.is_turning = stay.is_turning;
             leaf.visibility = distinct.visibility(stay.visibility);
             leaf.motion = distinct.motion(stay.keys);
             draft.clusters.push_back(std::move(leaf));
@@ -177,7 +181,7 @@ void make_leaves(Draft& draft) {
 
 Draft make_draft(const data::TimedScene& scene, const BuildOptions& options) {
     CHECK(scene.end_s > 0.0);
-    Draft draft{scene, options, 0.0, {}, {}, {}, {}, {}, {}, {}};
+    Draft draft{scene, options, 0.0, {}, {}, {}, {}, {}, {}, {}, {}};
     make_meshes(draft);
     make_leaves(draft);
     return draft;
@@ -221,10 +225,20 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
     }
 }
 
+Box carried_box(const DraftCluster& cluster, const Carriage& carriage) {
+    const glm::dvec3 middle = 0.5 * (cluster.box_min + cluster.box_max),
+                     half = 0.5 * (cluster.box_max - cluster.box_min);
+    const glm::dmat3& turn = carriage.place.rotation;
+    const glm::dvec3 reach = glm::abs(turn[0]) * half.x + glm::abs(turn[1]) * half.y +
+                             glm::abs(turn[2]) * half.z + carriage.drift_m;
+    const glm::dvec3 at = turn * middle + carriage.place.offset;
+    return {at - reach, at + reach};
+}
+
 double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, double most_m,
-                           const glm::dvec3& offset, FaceSoup& out) {
+                           const FramePlace& place, FaceSoup& out) {
     if (cluster.mesh == kNone) {
-        append_soup(draft.soups[cluster.soup], glm::dmat3(1.0), offset, out);
+        append_soup(draft.soups[cluster.soup], place.rotation, place.offset, out);
         return 0.0;
     }
     const DraftMesh& mesh = draft.meshes[cluster.mesh];
@@ -234,10 +248,11 @@ double append_cluster_soup(const Draft& draft, const DraftCluster& cluster, doub
     }
     const FaceSoup& soup = rung != nullptr ? rung->soup : mesh.soup;
     if (cluster.motion_class == data::MotionClass::kDynamic) {
-        append_soup(soup, glm::dmat3(1.0), offset, out);
+        append_soup(soup, place.rotation, place.offset, out);
     } else {
         const data::KeyFrame& key = draft.scene.keys[draft.motions[cluster.motion].begin];
-        append_soup(soup, glm::mat3_cast(key.rotation), key.position + offset, out);
+        append_soup(soup, place.rotation * glm::mat3_cast(key.rotation),
+                    place.rotation * key.position + place.offset, out);
     }
     return (rung != nullptr ? rung->error_m : 0.0) - cluster.error_m;
 }

@@ -4,13 +4,10 @@
 #include <utility>
 
 #include "lod/base/hilbert3.h"
-#include "objects/clustering/alive_tree.h"
 
 namespace objects {
 
 namespace {
-
-constexpr size_t kCandidatesPerChild = 2;  ///< neighbours looked at for each that a cluster may have
 
 glm::dvec3 middle_of(const DraftCluster& cluster) {
     return 0.5 * (cluster.box_min + cluster.box_max);
@@ -30,19 +27,6 @@ std::vector<PlaceAndTime> places_of(const Draft& draft, std::span<const uint32_t
     }
     return places;
 }
-
-/// The box of a group as it grows.
-struct GrowingBox {
-    glm::dvec3 low, high;
-
-    bool take(const DraftCluster& cluster, double most_m) {
-        const glm::dvec3 new_low = glm::min(low, cluster.box_min), new_high = glm::max(high, cluster.box_max);
-        if (glm::length(new_high - new_low) > most_m) return false;
-        low = new_low;
-        high = new_high;
-        return true;
-    }
-};
 
 }  // namespace
 
@@ -66,38 +50,37 @@ void sort_along_curve(const Draft& draft, std::vector<uint32_t>& clusters) {
         clusters[i] = keys[i].second;
 }
 
+bool GrowingBox::take(const Box& other, double most_m) {
+    const Box joined{glm::min(box.low, other.low), glm::max(box.high, other.high)};
+    if (glm::length(joined.high - joined.low) > most_m) return false;
+    box = joined;
+    return true;
+}
+
 Grouping group_neighbours(const Draft& draft, std::span<const uint32_t> active, const LevelThresholds& at) {
     std::vector<uint32_t> order(active.begin(), active.end());
     sort_along_curve(draft, order);
     AliveTree tree(places_of(draft, order, at));
-    Grouping out;
-    std::vector<uint32_t> near;
-    const size_t most = draft.options.most_children - 1;
-    for (uint32_t i = 0; i < order.size(); ++i) {
-        if (!tree.is_alive(i)) continue;
-        tree.remove(i);
-        const DraftCluster& representative = draft.clusters[order[i]];
-        const StepFunction& visibility = draft.functions[representative.visibility];
-        GrowingBox box{representative.box_min, representative.box_max};
-        std::vector<uint32_t> group = {order[i]};
-        out.counts.nodes += tree.nearest(i, 2.0, kCandidatesPerChild * most, near);
-        for (uint32_t candidate : near) {
-            if (group.size() > most) break;
-            const DraftCluster& neighbour = draft.clusters[order[candidate]];
-            const StepFunction& other = draft.functions[neighbour.visibility];
-            if (neighbour.visibility != representative.visibility) {
-                out.counts.steps += visibility.time_s.size() + other.time_s.size();
-                if (distance(visibility, other, draft.scene.end_s) > at.gamma) continue;
-            }
-            if (!box.take(neighbour, at.size_m)) continue;
-            group.push_back(order[candidate]);
-            tree.remove(candidate);
+    GrowingBox group;
+    uint32_t visibility = 0;
+    uint64_t steps = 0;
+    const auto begin = [&](uint32_t representative) {
+        const DraftCluster& cluster = draft.clusters[representative];
+        group.box = {cluster.box_min, cluster.box_max};
+        visibility = cluster.visibility;
+    };
+    const auto takes = [&](uint32_t neighbour) {
+        const DraftCluster& cluster = draft.clusters[neighbour];
+        if (cluster.visibility != visibility) {
+            const StepFunction &own = draft.functions[visibility],
+                               &other = draft.functions[cluster.visibility];
+            steps += own.time_s.size() + other.time_s.size();
+            if (distance(own, other, draft.scene.end_s) > at.gamma) return false;
         }
-        if (group.size() == 1)
-            out.waiting.push_back(order[i]);
-        else
-            out.groups.push_back(std::move(group));
-    }
+        return group.take({cluster.box_min, cluster.box_max}, at.size_m);
+    };
+    Grouping out = gather_groups(order, tree, draft.options.most_children, begin, takes);
+    out.counts.steps = steps;
     return out;
 }
 

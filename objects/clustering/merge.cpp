@@ -65,26 +65,42 @@ void settle_time(const Draft& draft, double most_gamma, std::vector<uint32_t>& c
 }
 
 void settle_box(const Draft& draft, std::span<const uint32_t> children, DraftCluster& out) {
-    out.box_min = draft.clusters[children[0]].box_min;
-    out.box_max = draft.clusters[children[0]].box_max;
     out.weight_m = 0.0;
     for (uint32_t child : children) {
-        out.box_min = glm::min(out.box_min, draft.clusters[child].box_min);
-        out.box_max = glm::max(out.box_max, draft.clusters[child].box_max);
-        out.weight_m += draft.clusters[child].weight_m;
+        const DraftCluster& cluster = draft.clusters[child];
+        const Box box = cluster.carriage == kNone ? Box{cluster.box_min, cluster.box_max}
+                                                  : carried_box(cluster, draft.carriages[cluster.carriage]);
+        out.box_min = child == children[0] ? box.low : glm::min(out.box_min, box.low);
+        out.box_max = child == children[0] ? box.high : glm::max(out.box_max, box.high);
+        out.weight_m += cluster.weight_m;
     }
 }
 
-/// Clusters whose geometry a parent is made of: children, or what is below them where they have spent so much of the
-/// level's error that little could be gained with the rest.
+/// A cluster whose geometry a parent is made of.
+struct Source {
+    uint32_t cluster = kNone;
+    FramePlace place;      ///< of its frame in the parent's …
+    double drift_m = 0.0;  ///< … and how far off that it gets
+};
+
+/// Children, or what is below them where they have spent so much of the level's error that little could be gained with the
+/// rest.
+/// @param below  the frame that the children's parent has in the one that is asked for
 void gather_sources(const Draft& draft, std::span<const uint32_t> children, uint32_t level,
-                    std::vector<uint32_t>& out) {
+                    const Source& below, std::vector<Source>& out) {
     for (uint32_t child : children) {
         const DraftCluster& cluster = draft.clusters[child];
+        Source source{child, below.place, below.drift_m};
+        if (cluster.carriage != kNone) {
+            const Carriage& carriage = draft.carriages[cluster.carriage];
+            source.place.rotation = below.place.rotation * carriage.place.rotation;
+            source.place.offset = below.place.rotation * carriage.place.offset + below.place.offset;
+            source.drift_m += carriage.drift_m;
+        }
         if (cluster.error_m > draft.options.spent_share * draft.at(level).error_m && cluster.soup != kNone)
-            gather_sources(draft, cluster.children, level, out);
+            gather_sources(draft, cluster.children, level, source, out);
         else
-            out.push_back(child);
+            out.push_back(source);
     }
 }
 
@@ -111,15 +127,15 @@ void drop_spent_soups(Draft& draft, const DraftCluster& cluster) {
 /// Geometry: what stands for the children at this level, joined and reduced around the box's middle.
 void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uint32_t level, Merged& out) {
     const glm::dvec3 middle = 0.5 * (out.cluster.box_min + out.cluster.box_max);
-    std::vector<uint32_t> sources;
-    gather_sources(draft, children, level, sources);
+    std::vector<Source> sources;
+    gather_sources(draft, children, level, {.cluster = kNone, .place = {.offset = -middle}}, sources);
     FaceSoup joined;
     double error_m = 0.0, child_error_m = 0.0;
-    for (uint32_t source : sources) {
-        const DraftCluster& cluster = draft.clusters[source];
+    for (const Source& source : sources) {
+        const DraftCluster& cluster = draft.clusters[source.cluster];
         const double most_m = draft.options.spent_share * draft.at(level).error_m;
-        const double more_m = append_cluster_soup(draft, cluster, most_m, -middle, joined);
-        error_m = std::max(error_m, cluster.error_m + more_m);
+        const double more_m = append_cluster_soup(draft, cluster, most_m, source.place, joined);
+        error_m = std::max(error_m, cluster.error_m + more_m + source.drift_m);
     }
     out.counts.faces += joined.faces.size();
     for (uint32_t child : children)
@@ -163,7 +179,7 @@ bool is_too_large(const Draft& draft, const DraftCluster& cluster, uint32_t leve
 }  // namespace
 
 std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<uint32_t>>& groups,
-                                   uint32_t level, const HierarchyFrame& frame,
+                                   uint32_t level, data::MotionClass motion_class,
                                    std::vector<uint32_t>& released) {
     std::vector<uint32_t> made;
     for (size_t begin = 0; begin < groups.size(); begin += kGroupsAtOnce) {
@@ -175,8 +191,9 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
             settle_time(draft, draft.at(level).gamma, children, merged[i], let_go[i]);
             DraftCluster& cluster = merged[i].cluster;
             cluster.level = level;
-            cluster.motion = frame.motion;
-            cluster.motion_class = frame.motion_class;
+            cluster.motion = motion_class == data::MotionClass::kDynamic ? draft.clusters[children[0]].motion
+                                                                         : kSceneFrame;
+            cluster.motion_class = motion_class;
             cluster.children = children;
             if (children.size() < 2) return;
             settle_box(draft, children, cluster);
@@ -194,8 +211,7 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
     return made;
 }
 
-std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone, uint32_t level,
-                                   const HierarchyFrame& frame) {
+std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone, uint32_t level) {
     std::vector<uint32_t> tops(alone.begin(), alone.end());
     std::vector<uint32_t> meshes;
     for (uint32_t id : alone) {
@@ -240,7 +256,6 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
         parent.children = {alone[i]};
         parent.object = kNoObject;
         parent.level = level;
-        parent.motion = child.mesh != kNone ? child.motion : frame.motion;
         drop_spent_soups(draft, parent);
         tops[i] = static_cast<uint32_t>(draft.clusters.size());
         draft.clusters.push_back(std::move(parent));

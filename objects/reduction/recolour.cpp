@@ -1,13 +1,20 @@
 #include "objects/reduction/recolour.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace objects {
 
 namespace {
 
-constexpr double kLeastCosine = 0.5;  // 60 degrees: what faces elsewhere is seen from elsewhere
+constexpr double kLeastCosine = 0.5;     ///< 60 degrees: what faces elsewhere is seen from elsewhere
+constexpr double kOffShare = 1e-5;       ///< of the limit: what lies so near is the face itself …
+constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it
+constexpr double kLongFace = 12.0;       ///< … and what is longer is asked at more points
+constexpr int kPieces = 8;               ///< of each of its sides
+constexpr double kOutShare = 2.0;        ///< … and what is farther away is something else
 
 /// Twice the area, along the normal.
 glm::dvec3 area_vector(const lod::Triangle& t) {
@@ -23,31 +30,108 @@ glm::dvec3 light_of(const glm::u8vec4& colour) {
 struct Mixture {
     glm::dvec3 light{0.0};
     double weight = 0.0;
+
+    void add(const glm::dvec3& more, double by) {
+        light += by * more;
+        weight += by;
+    }
 };
+
+/// Of one face of the result.
+struct Mixtures {
+    Mixture seen;         ///< by who looks at its front
+    Mixture seen_behind;  ///< … at its back
+    Mixture all;          ///< hidden or not, nearer to it than to other faces
+};
+
+/// A point of a source face, and the face of the result that is nearest.
+struct Sample {
+    glm::dvec3 point;
+    uint32_t near = kNoFace;
+};
+
+/// The points that speak for a face, each for as much of its area: its quarters; of a face that is small beside the limit its
+/// middle alone; more of one that is long, lest two halves of a wall get different shares of a band of windows.
+void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, double limit_m,
+                std::vector<Sample>& out) {
+    out.clear();
+    const std::array<glm::dvec3, 4> points = quarters(t);
+    const double longest_m =
+        std::max({glm::length(t.b - t.a), glm::length(t.c - t.b), glm::length(t.a - t.c)});
+    if (!(longest_m > kLongFace * limit_m)) {
+        const size_t count = longest_m > limit_m ? points.size() : 1;
+        for (size_t i = 0; i < count; ++i)
+            out.push_back({points[i], nearest[i]});
+        return;
+    }
+    // Rows of triangles that stand, and of those between them that hang.
+    const auto add = [&](double along, double up) {
+        const size_t quarter = along + up <= 0.5 * kPieces ? 1
+                               : along >= 0.5 * kPieces    ? 2
+                               : up >= 0.5 * kPieces       ? 3
+                                                           : 0;
+        out.push_back(
+            {t.a + (along / kPieces) * (t.b - t.a) + (up / kPieces) * (t.c - t.a), nearest[quarter]});
+    };
+    for (int row = 0; row < kPieces; ++row) {
+        for (int i = 0; i + row < kPieces; ++i) {
+            add(i + 1.0 / 3.0, row + 1.0 / 3.0);
+            if (i + row + 1 < kPieces) add(i + 2.0 / 3.0, row + 2.0 / 3.0);
+        }
+    }
+}
+
+bool are_all_alike(const std::vector<glm::u8vec4>& colours) {
+    return std::adjacent_find(colours.begin(), colours.end(), std::not_equal_to<>()) == colours.end();
+}
+
+bool is_met(const lod::TriangleHit& hit) {
+    return hit.triangle != kNoFace;
+}
 
 }  // namespace
 
-void recolour(const FaceSoup& source, const NearestFaces& nearest, FaceSoup& result) {
-    std::vector<Mixture> mixtures(result.faces.size());
-    std::vector<glm::dvec3> across(result.faces.size());
-    for (size_t face = 0; face < result.faces.size(); ++face)
-        across[face] = area_vector(result.view().triangle(face));
+void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, const NearestFaces& nearest,
+              double limit_m, FaceSoup& result) {
+    if (are_all_alike(source.colours) && are_all_alike(result.colours)) return;
+    std::vector<Mixtures> mixtures(result.faces.size());
+    const lod::TriangleTree result_tree(result.view());
+    std::vector<Sample> samples;
+    const auto add = [&](uint32_t face, const glm::dvec3& area, const glm::dvec3& light,
+                         auto Mixtures::*towards, auto Mixtures::*away) {
+        if (face == kNoFace || result.colours[face].w < 255) return;
+        const glm::dvec3 front = area_vector(result.view().triangle(face));
+        const double cosine = glm::dot(area, front) / (glm::length(area) * glm::length(front));
+        if (!(std::abs(cosine) >= kLeastCosine)) return;
+        (mixtures[face].*(cosine > 0.0 ? towards : away)).add(light, glm::length(area) * std::abs(cosine));
+    };
     for (size_t face = 0; face < source.faces.size(); ++face) {
         if (source.colours[face].w < 255) continue;
         const lod::Triangle triangle = source.view().triangle(face);
-        const glm::dvec3 area = area_vector(triangle);
-        const double size = glm::length(area);
-        for (const uint32_t near : nearest[face]) {
-            if (near == kNoFace || result.colours[near].w < 255) continue;
-            const glm::dvec3& onto = across[near];
-            if (std::abs(glm::dot(area, onto)) < kLeastCosine * size * glm::length(onto)) continue;
-            mixtures[near].light += size * light_of(source.colours[face]);
-            mixtures[near].weight += size;
+        const glm::dvec3 whole = area_vector(triangle), light = light_of(source.colours[face]);
+        const double size = glm::length(whole);
+        if (!(size > 0.0)) continue;
+        samples_of(triangle, nearest[face], limit_m, samples);
+        const glm::dvec3 area = whole / static_cast<double>(samples.size()), out = (limit_m / size) * whole;
+        for (const auto& [point, near] : samples) {
+            add(near, area, light, &Mixtures::all, &Mixtures::all);
+            if (is_met(source_tree.first_on_way(point + kOffShare * out, point + kOutShare * out))) continue;
+            const lod::TriangleHit first = result_tree.first_on_way(point + out, point - out);
+            add(first.triangle, area, light, &Mixtures::seen, &Mixtures::seen_behind);
+            if (!is_met(first)) continue;
+            // Where two lie in one plane either may be drawn.
+            const glm::dvec3 at = point + (1.0 - first.distance_m / limit_m) * out;
+            const lod::TriangleHit second =
+                result_tree.first_on_way(at - kOffShare * out, at - kOnePlaneShare * out);
+            if (second.triangle != first.triangle)
+                add(second.triangle, area, light, &Mixtures::seen, &Mixtures::seen_behind);
         }
     }
     for (size_t face = 0; face < result.faces.size(); ++face) {
-        if (!(mixtures[face].weight > 0.0)) continue;
-        const glm::dvec3 mean = glm::sqrt(mixtures[face].light / mixtures[face].weight);
+        const auto& [seen, seen_behind, all] = mixtures[face];
+        const Mixture& mixture = seen.weight > 0.0 ? seen : seen_behind.weight > 0.0 ? seen_behind : all;
+        if (!(mixture.weight > 0.0)) continue;
+        const glm::dvec3 mean = glm::sqrt(mixture.light / mixture.weight);
         const glm::u8vec3 mixed(glm::clamp(glm::round(mean), 0.0, 255.0));
         result.colours[face] = {mixed.x, mixed.y, mixed.z, 255};
     }

@@ -118,10 +118,12 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
     const NearestFaces nearest = nearest_faces(source, result, limit_m);
-    recolour(source, nearest, result);
-    if (!are_parts) keep_breadth(source, source_tree, nearest, limit_m, result);
-    if (result.faces.size() >= source.faces.size()) return source;
     turn_open_parts_up(kWeldShare * limit_m, result);
+    recolour(source, source_tree, nearest, limit_m, result);
+    if (are_parts) return result;
+    keep_breadth(source, source_tree, nearest, limit_m, result);
+    if (result.faces.size() >= source.faces.size()) return source;
+    turn_open_parts_up(kWeldShare * limit_m, result);  // rods' cards, too
     return result;
 }
 

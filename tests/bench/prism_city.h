@@ -76,8 +76,7 @@ inline data::TimedScene prism_city(uint32_t objects = kCityObjects, uint32_t col
         };
         const glm::u8vec4 colour(paint(0.5), paint(0.5), paint(0.5), 255);
         scene.meshes.push_back(upright_prism(sides, radius_m, height_m, turn_rad, colour));
-        const glm::dvec3 at((i % columns + 0.5) * kCityCell_m, (i / columns + 0.5) * kCityCell_m,
-                            0.0);
+        const glm::dvec3 at((i % columns + 0.5) * kCityCell_m, (i / columns + 0.5) * kCityCell_m, 0.0);
         scene.keys.push_back({0.0, at, {1.0, 0.0, 0.0, 0.0}});
         scene.objects.push_back({i, {0, 0}, {i, i + 1}, std::to_string(i)});
     }

@@ -33,9 +33,7 @@ int false_clusters(const data::TimedScene& scene, const objects::ClusterTree& tr
         const std::vector<objects::ClusterId>& level = levels[rng.below(levels.size())];
         const objects::ClusterId id = level[rng.below(level.size())];
         const objects::Cluster& c = tree.clusters[id];
-        std::vector<objects::ClusterId> leaves;
-        objects_test::gather_leaves(tree, id, leaves);
-        const objects::FaceSoup source = objects_test::source_surface(scene, tree, leaves, tree.moves(id));
+        const objects::FaceSoup source = objects_test::source_surface(scene, tree, id, rng.unit());
         ++judged;
         if (source.faces.size() > kMostFaces) {
             ++skipped;

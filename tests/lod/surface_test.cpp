@@ -118,6 +118,48 @@ TEST(Surface, AHoleIsSeenFromOneSideOnly) {
     EXPECT_LE(in.upper_m - in.lower_m, 1e-3);
 }
 
+/// Against every triangle, each by the signs of volumes.
+TEST(Surface, TheFirstOnAWayIsTheFirstOfAll) {
+    lod::Rng rng(7);
+    const auto point = [&](double reach) {
+        return glm::dvec3(rng.between(-reach, reach), rng.between(-reach, reach), rng.between(-reach, reach));
+    };
+    std::vector<glm::dvec3> points;
+    std::vector<std::array<uint32_t, 3>> faces;
+    for (uint32_t i = 0; i < 120; ++i) {
+        const glm::dvec3 at = point(5.0);
+        for (int corner = 0; corner < 3; ++corner)
+            points.push_back(at + point(1.0));
+        faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const lod::Soup soup{points, faces};
+    const lod::TriangleTree tree(soup);
+    const auto volume = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                           const glm::dvec3& d) { return glm::dot(glm::cross(b - a, c - a), d - a); };
+    size_t met = 0;
+    for (int i = 0; i < 2000; ++i) {
+        glm::dvec3 from = point(6.0), to = from + point(4.0);
+        if (i % 5 == 0) to.x = from.x;
+        double first_m = std::numeric_limits<double>::infinity();
+        for (size_t face = 0; face < faces.size(); ++face) {
+            const lod::Triangle t = soup.triangle(face);
+            const double ab = volume(from, to, t.a, t.b), bc = volume(from, to, t.b, t.c),
+                         ca = volume(from, to, t.c, t.a);
+            const bool is_around = (ab > 0.0) == (bc > 0.0) && (bc > 0.0) == (ca > 0.0);
+            const double before = volume(t.a, t.b, t.c, from), behind = volume(t.a, t.b, t.c, to);
+            if (is_around && before * behind < 0.0)
+                first_m = std::min(first_m, glm::distance(from, to) * before / (before - behind));
+        }
+        const lod::TriangleHit hit = tree.first_on_way(from, to);
+        ASSERT_EQ(hit.triangle < faces.size(), std::isfinite(first_m)) << i;
+        if (!std::isfinite(first_m)) continue;
+        EXPECT_NEAR(hit.distance_m, first_m, 1e-9) << i;
+        ++met;
+    }
+    EXPECT_GT(met, 100u);
+    EXPECT_LT(met, 1800u);
+}
+
 TEST(Surface, EmptySurfaces) {
     const OwnedSoup none, some = lod_test::bumpy_square(2, 0.0, 0, 0);
     EXPECT_EQ(lod::two_sided_distance(none.view(), none.view(), 1.0, 1).upper_m, 0.0);

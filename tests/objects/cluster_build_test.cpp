@@ -120,11 +120,9 @@ TEST(ClusterBuild, BoundsHoldEverythingBelow) {
     const ClusterTree tree = build(scene);
     for (ClusterId id = 0; id < tree.clusters.size(); ++id) {
         const Cluster& c = tree.clusters[id];
-        std::vector<ClusterId> leaves;
-        gather_leaves(tree, id, leaves);
         if (c.motion_class == data::MotionClass::kDynamic && !tree.moves(id)) continue;  // next test
         if (id == objects::kRootCluster) continue;
-        objects::FaceSoup all = source_surface(scene, tree, leaves, tree.moves(id));
+        objects::FaceSoup all = source_surface(scene, tree, id);
         if (c.geometry != objects::kNoGeometry)
             objects::append_soup(drawn_surface(tree, c), glm::dmat3(1.0), glm::dvec3(0.0), all);
         for (const glm::dvec3& p : all.points) {

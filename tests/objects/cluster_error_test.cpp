@@ -109,9 +109,7 @@ TEST(ClusterError, HoldsForEveryClusterOfSomeScenes) {
         for (objects::ClusterId id = 0; id < tree.clusters.size(); ++id) {
             const objects::Cluster& c = tree.clusters[id];
             if (c.child_count == 0 || c.geometry == objects::kNoGeometry) continue;
-            std::vector<objects::ClusterId> leaves;
-            objects_test::gather_leaves(tree, id, leaves);
-            const FaceSoup source = objects_test::source_surface(scene, tree, leaves, tree.moves(id));
+            const FaceSoup source = objects_test::source_surface(scene, tree, id);
             const FaceSoup drawn = objects_test::drawn_surface(tree, c);
             const double measured_m = sampled_both_ways_m(source, drawn, 0.4);
             EXPECT_LE(measured_m, double(c.error_m) + 1e-9) << "seed " << seed << " cluster " << id;

@@ -25,12 +25,36 @@ TEST(Recolour, WallsDarkenByTheWindowsTheyStandFor) {
     }
     FaceSoup wall;
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.05, {200, 200, 200, 255}, wall);
-    recolour(house, nearest_faces(house, wall, 0.2), wall);
+    recolour(house, lod::TriangleTree(house.view()), nearest_faces(house, wall, 0.2), 0.2, wall);
     // Light, not numbers: sqrt((200² + 40²) / 2) = 144, sqrt((200² + 80²) / 2) = 152.
     for (const glm::u8vec4& colour : wall.colours) {
-        EXPECT_NEAR(colour.x, 144, 12);
-        EXPECT_NEAR(colour.z, 152, 12);
+        EXPECT_NEAR(colour.x, 144, 8);
+        EXPECT_NEAR(colour.z, 152, 8);
         EXPECT_EQ(colour.w, 255);
+    }
+}
+
+/// A pane on a wall, a roof on a house: what they hide is not seen.
+TEST(Recolour, WhatIsHiddenDoesNotCount) {
+    FaceSoup layers;
+    add_rectangle({0.0, 0.0}, {10.0, 10.0}, 0.00, {250, 0, 0, 255}, layers);  // a wall, whole
+    add_rectangle({2.5, 2.5}, {7.5, 7.5}, -0.02, {0, 0, 250, 255}, layers);   // a pane over a quarter of it
+    add_rectangle({0.0, 0.0}, {10.0, 10.0}, 0.10, {0, 250, 0, 255}, layers);  // the room's side
+    std::swap(layers.faces[4][1], layers.faces[4][2]);
+    std::swap(layers.faces[5][1], layers.faces[5][2]);
+    for (const bool is_turned : {false, true}) {
+        FaceSoup sheet;
+        add_rectangle({0.0, 0.0}, {10.0, 10.0}, 0.05, {9, 9, 9, 255}, sheet);
+        if (is_turned) {
+            std::swap(sheet.faces[0][1], sheet.faces[0][2]);
+            std::swap(sheet.faces[1][1], sheet.faces[1][2]);
+        }
+        recolour(layers, lod::TriangleTree(layers.view()), nearest_faces(layers, sheet, 0.2), 0.2, sheet);
+        for (const glm::u8vec4& colour : sheet.colours) {
+            EXPECT_EQ(colour.y, is_turned ? 250 : 0);
+            EXPECT_NEAR(colour.x, is_turned ? 0 : 216, 12);  // sqrt(3 / 4) of 250
+            EXPECT_NEAR(colour.z, is_turned ? 0 : 125, 12);  // sqrt(1 / 4)
+        }
     }
 }
 
@@ -40,9 +64,14 @@ TEST(Recolour, WhatIsFarOrFacesElsewhereDoesNotCount) {
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.1, {0, 255, 0, 128}, source);  // glass
     FaceSoup wall;
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.0, {10, 20, 30, 255}, wall);
-    recolour(source, nearest_faces(source, wall, 0.5), wall);
+    recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, wall, 0.5), 0.5, wall);
     for (const glm::u8vec4& colour : wall.colours)
         EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 255));
+    FaceSoup pane;
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.1, {10, 20, 30, 128}, pane);  // takes no colour of a wall's
+    recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, pane, 0.5), 0.5, pane);
+    for (const glm::u8vec4& colour : pane.colours)
+        EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 128));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "data/scene_time.h"
 #include "objects/clustering/cluster_build.h"
 #include "objects/reduction/face_soup.h"
+#include "objects/scene_view.h"
 
 namespace objects_test {
 
@@ -33,24 +34,47 @@ inline double time_of(const objects::ClusterTree& tree, const objects::Cluster& 
     return 0.0;
 }
 
-/// Triangles of leaves straight from the scene, each where its object stands while the leaf is there; in the body frame
-/// for bodies that move.
+/// A time at which something of a cluster is there: `share` of the way through all such times; 0 if it never is.
+inline double time_there(const objects::ClusterTree& tree, const objects::Cluster& cluster, double share) {
+    const data::IndexRange steps = tree.visibilities[cluster.visibility];
+    const auto end_of = [&](uint32_t i) { return i + 1 < steps.end ? tree.step_time_s[i + 1] : tree.end_s; };
+    double total_s = 0.0;
+    for (uint32_t i = steps.begin; i < steps.end; ++i)
+        total_s += tree.step_value[i] > 0.0 ? end_of(i) - tree.step_time_s[i] : 0.0;
+    double left_s = share * total_s;
+    for (uint32_t i = steps.begin; i < steps.end; ++i) {
+        if (!(tree.step_value[i] > 0.0)) continue;
+        const double length_s = end_of(i) - tree.step_time_s[i];
+        if (left_s < length_s) return tree.step_time_s[i] + left_s;
+        left_s -= length_s;
+    }
+    return 0.0;
+}
+
+/// Triangles of everything below a cluster straight from the scene, each where its object stands while its leaf is there; of
+/// a cluster that moves, in its frame, as they stand when `share` of the time is over in which it is there.
 inline objects::FaceSoup source_surface(const data::TimedScene& scene, const objects::ClusterTree& tree,
-                                        const std::vector<objects::ClusterId>& leaves, bool in_body_frame) {
+                                        objects::ClusterId id, double share = 0.0) {
+    std::vector<objects::ClusterId> leaves;
+    gather_leaves(tree, id, leaves);
+    const bool moves = tree.moves(id);
+    const double frame_time_s = time_there(tree, tree.clusters[id], share);
+    const data::ObjectPose frame =
+        moves ? objects::pose_of(tree, tree.clusters[id], frame_time_s) : data::ObjectPose{};
+    const glm::dquat back = glm::conjugate(frame.rotation);
     objects::FaceSoup out;
-    for (objects::ClusterId id : leaves) {
-        const data::TimedObject& object = scene.objects[tree.clusters[id].object];
-        const data::ObjectPose pose = data::pose_at(scene, object, time_of(tree, tree.clusters[id]));
+    for (objects::ClusterId leaf : leaves) {
+        const data::TimedObject& object = scene.objects[tree.clusters[leaf].object];
+        const data::ObjectPose pose =
+            data::pose_at(scene, object, moves ? frame_time_s : time_of(tree, tree.clusters[leaf]));
         const data::TimedMesh& mesh = scene.meshes[object.mesh];
         objects::FaceSoup soup;
         for (const glm::vec3& p : mesh.positions)
             soup.points.emplace_back(p);
         soup.faces = mesh.triangles;
         soup.colours.resize(mesh.triangles.size());
-        if (in_body_frame)
-            objects::append_soup(soup, glm::dmat3(1.0), glm::dvec3(0.0), out);
-        else
-            objects::append_soup(soup, glm::mat3_cast(pose.rotation), pose.position, out);
+        objects::append_soup(soup, glm::mat3_cast(back * pose.rotation),
+                             back * (pose.position - frame.position), out);
     }
     return out;
 }

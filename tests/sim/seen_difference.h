@@ -1,4 +1,5 @@
-// What a human eye tells apart in two pictures, where a pixel is a minute of arc: CIELAB after the eye's own blur.
+// What a human eye tells apart in two pictures, where a pixel is a minute of arc: CIELAB after the eye's own blur; and what it
+// would tell apart in squares of them, which is what surfaces in the wrong light show.
 //
 // Pictures are drawn several times as large and averaged, or else the raster's choice of samples would be measured. Blur:
 // the sharpest Gaussian of S-CIELAB, for brightness, spread 0.0283 degrees; colours, which the eye blurs more, get no
@@ -7,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -28,10 +30,11 @@ struct LightImage {
 
 /// Means over squares of `factor` pixels.
 inline LightImage averaged(const render::ColourImage& image, int factor) {
-    const auto linear = [](uint8_t value) {
-        const double v = value / 255.0;
-        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    };
+    std::array<double, 256> linear;
+    for (size_t value = 0; value < linear.size(); ++value) {
+        const double v = static_cast<double>(value) / 255.0;
+        linear[value] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    }
     LightImage out{image.width / factor, image.height / factor, {}};
     for (int y = 0; y < out.height; ++y) {
         for (int x = 0; x < out.width; ++x) {
@@ -39,7 +42,7 @@ inline LightImage averaged(const render::ColourImage& image, int factor) {
             for (int i = 0; i < factor * factor; ++i) {
                 const int row = factor * y + i / factor, column = factor * x + i % factor;
                 const uint8_t* texel = &image.rgba[4 * static_cast<size_t>(row * image.width + column)];
-                sum += glm::dvec3(linear(texel[0]), linear(texel[1]), linear(texel[2]));
+                sum += glm::dvec3(linear[texel[0]], linear[texel[1]], linear[texel[2]]);
             }
             out.light.push_back(sum / double(factor * factor));
         }
@@ -80,22 +83,21 @@ inline glm::dvec3 lab_of(const glm::dvec3& rgb) {
     return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
-/// Over the pixels where anything is drawn.
+/// Over the pixels, or squares of them, where anything is drawn.
 struct SeenDifference {
     double mean = 0.0, largest = 0.0;
-    double noticeable_share = 0.0;  ///< of those pixels, differences above the just noticeable one
+    double noticeable_share = 0.0;  ///< of those, differences above the just noticeable one
     size_t pixels = 0;
 };
 
-/// @param a, b  of equal size, `factor` times as large as they are seen, divisible by it
-/// @param is_counted  [pixels as seen]
-inline SeenDifference seen_difference(const render::ColourImage& a, const render::ColourImage& b, int factor,
-                                      const std::vector<bool>& is_counted) {
-    const LightImage seen_a = blurred(averaged(a, factor)), seen_b = blurred(averaged(b, factor));
+/// @param a, b  of equal size
+/// @param is_counted  [pixels]
+inline SeenDifference lab_difference(const LightImage& a, const LightImage& b,
+                                     const std::vector<bool>& is_counted) {
     SeenDifference out;
-    for (size_t i = 0; i < seen_a.light.size(); ++i) {
+    for (size_t i = 0; i < a.light.size(); ++i) {
         if (!is_counted[i]) continue;
-        const double apart = glm::distance(lab_of(seen_a.light[i]), lab_of(seen_b.light[i]));
+        const double apart = glm::distance(lab_of(a.light[i]), lab_of(b.light[i]));
         out.mean += apart;
         out.largest = std::max(out.largest, apart);
         out.noticeable_share += apart > kJustNoticeable ? 1.0 : 0.0;
@@ -104,6 +106,32 @@ inline SeenDifference seen_difference(const render::ColourImage& a, const render
     out.mean /= double(std::max<size_t>(out.pixels, 1));
     out.noticeable_share /= double(std::max<size_t>(out.pixels, 1));
     return out;
+}
+
+/// @param a, b  of equal size, `factor` times as large as they are seen, divisible by it
+/// @param is_counted  [pixels as seen]
+inline SeenDifference seen_difference(const render::ColourImage& a, const render::ColourImage& b, int factor,
+                                      const std::vector<bool>& is_counted) {
+    return lab_difference(blurred(averaged(a, factor)), blurred(averaged(b, factor)), is_counted);
+}
+
+/// The same of the mean light of squares, those of which at least half the pixels count.
+/// @param side_px  of a square, in pixels as seen; what is left at the right and the lower edge does not count
+inline SeenDifference square_difference(const render::ColourImage& a, const render::ColourImage& b,
+                                        int factor, int side_px, const std::vector<bool>& is_counted) {
+    const LightImage mean_a = averaged(a, factor * side_px), mean_b = averaged(b, factor * side_px);
+    const int width = a.width / factor;
+    std::vector<bool> counts;
+    for (int y = 0; y < mean_a.height; ++y) {
+        for (int x = 0; x < mean_a.width; ++x) {
+            int inside = 0;
+            for (int i = 0; i < side_px * side_px; ++i)
+                inside += is_counted[static_cast<size_t>((y * side_px + i / side_px) * width + x * side_px +
+                                                         i % side_px)];
+            counts.push_back(2 * inside >= side_px * side_px);
+        }
+    }
+    return lab_difference(mean_a, mean_b, counts);
 }
 
 }  // namespace sim_test

@@ -121,27 +121,59 @@ class TwoPictures {
         front_.place(front_.pool_need());
         every_.place(front_.pool_need());
         air_.draw_sky = false;
+        air_.clear_colour = {0.45f, 0.55f, 0.7f};
+        air_.sun_world = glm::normalize(glm::dvec3(-0.5, -0.6, 0.6));
     }
 
     const objects::ClusterTree& tree() const { return front_.tree(); }
 
     PictureTally compare(const lod::View& view, double time_s, double tolerance_px) {
-        const render::DepthImage drawn = picture(front_, view, time_s, tolerance_px);
-        const render::DepthImage full = picture(every_, view, time_s, 0.0);
+        const render::DepthImage drawn = picture(front_, view, time_s, tolerance_px, 1);
+        const render::DepthImage full = picture(every_, view, time_s, 0.0, 1);
         return PictureJudge(view, front_.error_px()).judge(full, drawn);
     }
-    render::ColourImage colours() { return renderer_.read_colour(); }
+
+    /// Both pictures, `factor` times as large as the view that the bound is of.
+    struct Colours {
+        render::ColourImage full, drawn;
+        std::vector<bool> is_covered;  ///< [pixels of the view] by anything in either picture
+        uint64_t full_triangles = 0, drawn_triangles = 0;
+    };
+    /// @param factor  the renderer's size in sizes of the view
+    Colours colours(const lod::View& view, double time_s, double tolerance_px, int factor) {
+        Colours out;
+        out.is_covered.resize(static_cast<size_t>(view.width_px) * static_cast<size_t>(view.height_px));
+        const auto take = [&](lod::Front& front, double within_px) {
+            const render::DepthImage depth = picture(front, view, time_s, within_px, factor);
+            for (int y = 0; y < depth.height; ++y) {
+                for (int x = 0; x < depth.width; ++x) {
+                    if (std::isfinite(depth.depth_m[static_cast<size_t>(y * depth.width + x)]))
+                        out.is_covered[static_cast<size_t>(y / factor * view.width_px + x / factor)] = true;
+                }
+            }
+            return renderer_.read_colour();
+        };
+        out.drawn = take(front_, tolerance_px);  // writes what both draw
+        out.full = take(every_, 0.0);
+        out.full_triangles = every_.emitted_triangles();
+        out.drawn_triangles = front_.emitted_triangles();
+        return out;
+    }
 
   private:
-    render::DepthImage picture(lod::Front& front, const lod::View& view, double time_s, double tolerance_px) {
+    render::DepthImage picture(lod::Front& front, const lod::View& view, double time_s, double tolerance_px,
+                               int factor) {
         lod::Front* const fronts[] = {&front};
         lod::Budget budget;
         budget.tolerance_px = tolerance_px;
         front.begin_frame({&view, 1}, time_s);
         lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
+        lod::View drawn = view;
+        drawn.width_px *= factor;
+        drawn.height_px *= factor;
         list_.clear();
-        front.emit(view, list_);
-        renderer_.draw(view, list_, air_);
+        front.emit(drawn, list_);
+        renderer_.draw(drawn, list_, air_);
         renderer_.finish();
         return renderer_.read_depth();
     }
