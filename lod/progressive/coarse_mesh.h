@@ -34,7 +34,7 @@ struct Fan {
 class CoarseMesh {
   public:
     /// The full mesh. CHECKs that it is a manifold.
-    explicit CoarseMesh(const VertexHierarchy& hierarchy);
+    CoarseMesh(std::span<const std::array<NodeId, 3>> triangles, uint32_t leaf_count);
 
     NodeId node(CornerId corner) const { return node_[corner]; }
     NodeId head(CornerId corner) const { return node_[next_corner(corner)]; }

@@ -90,7 +90,7 @@ void SurfaceImage::untwist() {
 }
 
 double SurfaceImage::owner_distance(NodeId node, uint32_t triangle) const {
-    const auto& [a, b, c] = h_.triangles[triangle];
+    const auto& [a, b, c] = triangles_[triangle];
     return glm::sqrt(squared_distance(at(node), Triangle{at(a), at(b), at(c)}));
 }
 
