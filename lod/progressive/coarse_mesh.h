@@ -18,13 +18,6 @@ namespace lod {
 
 inline constexpr CornerId kNoCorner = 0xffffffffu;
 
-inline CornerId next_corner(CornerId corner) {
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-inline CornerId prev_corner(CornerId corner) {
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
-
 /// The corners of one node, counter-clockwise. Open at a border: then the first one's half-edge is the border.
 struct Fan {
     std::vector<CornerId> corners;
