@@ -239,11 +239,27 @@ void SurfaceImage::touch_moved() {
     }
 }
 
+/// What is clearly above a new triangle, as near as others, goes there without being measured; nearest sectors first.
+bool SurfaceImage::is_unnoticed(Member& member, const glm::dvec3& place, double unnoticed_m) const {
+    const size_t count = fan_.corners.size();
+    for (size_t away = 0; away < count; ++away) {
+        const size_t turn = (away + 1) / 2;  // 0, 1 clockwise, 1 counter-clockwise, 2 clockwise ...
+        const bool is_ccw = away % 2 == 0;
+        const size_t sector = member.from + (is_ccw ? turn : count - turn);
+        const size_t to = sector >= count ? sector - count : sector;
+        if (!sectors_[to].is_below(place, unnoticed_m)) continue;
+        member.to = static_cast<uint32_t>(to);
+        member.is_ccw = fan_.is_closed ? is_ccw : member.to > member.from;
+        return true;
+    }
+    return false;
+}
+
 /// What is near stays. Else downhill first; where that ends farther off than anything before, every sector is tried.
 void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
     const size_t count = fan_.corners.size();
     const double unnoticed_m = std::max(enough_m_, glm::sqrt(bound2_)), near_m = kNearShare * unnoticed_m;
-    if (sectors_[member.from].is_below(place, unnoticed_m)) return;
+    if (is_unnoticed(member, place, unnoticed_m)) return;
     double least2 = squared_distance(place, sectors_[member.from].triangle);
     if (least2 <= near_m * near_m) return;
     const auto attempt = [&](size_t sector) {
@@ -260,7 +276,7 @@ void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
             at = is_up ? (at + 1) % count : (at + count - 1) % count;
         } while (least2 > 0.0 && attempt(at));
     }
-    for (size_t sector = 0; sector < count && least2 > std::max(bound2_, enough_m_ * enough_m_); ++sector)
+    for (size_t sector = 0; sector < count && least2 > unnoticed_m * unnoticed_m; ++sector)
         attempt(sector);
     const size_t ccw = (member.to + count - member.from) % count;
     member.is_ccw = fan_.is_closed ? 2 * ccw <= count : member.to > member.from;
@@ -294,6 +310,11 @@ void SurfaceImage::rewrite(uint32_t index) {
     FullEdge& edge = edges_[index];
     const Member* u = member_of_[edge.u] == kNone ? nullptr : &members_[member_of_[edge.u]];
     const Member* v = member_of_[edge.v] == kNone ? nullptr : &members_[member_of_[edge.v]];
+    const bool stays = edge.right != kNoCorner && (u == nullptr || u->to == u->from) &&
+                       (v == nullptr || v->to == v->from) &&
+                       std::all_of(edge.word.begin(), edge.word.end(),
+                                   [this](CornerId letter) { return rule_of_[letter] == kNone; });
+    if (stays) return suspect(edge);
     scratch_.clear();
     const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
     if (u != nullptr) walk_fan(fan_, u->to, u->from, !u->is_ccw, add);

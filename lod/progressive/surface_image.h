@@ -50,7 +50,7 @@ class SurfaceImage {
     double collapse(const CollapseStep& step, double enough_m = 0.0);
 
     /// Whether all full triangles can be drawn together as claimed. For tests; O(n).
-    bool is_sound() const;
+    bool is_sound();
 
   private:
     static constexpr uint32_t kNone = 0xffffffffu;
@@ -103,6 +103,7 @@ class SurfaceImage {
     void carry_members();
     void replace_star(const CollapseStep& step);
     void move_members();
+    bool is_unnoticed(Member& member, const glm::dvec3& at, double unnoticed_m) const;
     void move_inner(Member& member, const glm::dvec3& at);
     void move_border(Member& member, const glm::dvec3& at);
     void rewrite(uint32_t edge);
@@ -118,14 +119,13 @@ class SurfaceImage {
     bool send_round(FullEdge& edge, bool is_ccw);
     void file_crossers();
     double star_bound();
-    double crossing_bound(const FullEdge& edge, CornerId corner) const;
+    double crossing_bound(const FullEdge& edge, CornerId corner, double unnoticed2) const;
     double owner_distance(NodeId node, uint32_t triangle) const;
 
     CornerId canonical(CornerId corner) const;
     const glm::dvec3& at(NodeId node) const { return positions_[node]; }
     Triangle coarse_triangle(CornerId corner) const;
-    Word loop_of(uint32_t triangle) const;
-    bool can_fill(uint32_t triangle) const;
+    bool can_fill(uint32_t triangle);
 
     std::span<const std::array<NodeId, 3>> triangles_;
     uint32_t leaf_count_ = 0;
@@ -161,7 +161,8 @@ class SurfaceImage {
         double apart = 0.0;
     };
     std::vector<Step> way_;  // full triangles looked at on the way to a nearer owner
-    Word scratch_;
+    Word scratch_, before_, loop_;
+    Filling filling_;
     std::vector<uint32_t> suspects_;   // vertices with an edge that goes round p at once
     std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
     std::vector<uint8_t> is_touched_;  // [edges]
