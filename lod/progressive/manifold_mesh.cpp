@@ -214,20 +214,31 @@ void cut_out(uint32_t face, const Faces& faces, Sheets& sheets) {
     }
 }
 
+/// Where the corners of each leaf would begin in a list sorted by leaf; its length behind.
+std::vector<uint32_t> begins_of(const std::vector<uint32_t>& leaf_of) {
+    std::vector<uint32_t> begin(2 + *std::max_element(leaf_of.begin(), leaf_of.end()), 0);
+    for (uint32_t leaf : leaf_of)
+        ++begin[leaf + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    return begin;
+}
+
 /// Numbers the leaves; where a sheet meets itself along an edge, so that the same two leaves would share two edges,
 /// triangles are cut out until none do.
 std::vector<uint32_t> settle_leaves(const Faces& faces, Sheets& sheets) {
     for (;;) {
         std::vector<uint32_t> leaf_of = number_leaves(sheets.mates);
-        std::vector<std::array<uint32_t, 3>> sides;  // from, to, corner
-        for (uint32_t corner = 0; corner < leaf_of.size(); ++corner)
-            sides.push_back({leaf_of[corner], leaf_of[next_corner(corner)], corner});
-        std::sort(sides.begin(), sides.end());
+        const std::vector<uint32_t> begin = begins_of(leaf_of);
+        std::vector<uint32_t> next(begin), leads_to(leaf_of.size());  // by the leaf that a side leaves
         bool is_settled = true;
-        for (size_t i = 1; i < sides.size(); ++i) {
-            if (sides[i][0] != sides[i - 1][0] || sides[i][1] != sides[i - 1][1]) continue;
-            cut_out(sides[i][2] / 3, faces, sheets);
-            is_settled = false;
+        for (uint32_t corner = 0; corner < leaf_of.size(); ++corner) {
+            const uint32_t from = leaf_of[corner], to = leaf_of[next_corner(corner)];
+            const auto known = leads_to.begin() + begin[from], end = leads_to.begin() + next[from];
+            if (std::find(known, end, to) != end) {
+                cut_out(corner / 3, faces, sheets);
+                is_settled = false;
+            }
+            leads_to[next[from]++] = to;
         }
         if (is_settled) return leaf_of;
     }

@@ -239,7 +239,7 @@ void SurfaceImage::touch_moved() {
     }
 }
 
-/// What is clearly above a new triangle, as near as others, goes there without being measured; nearest sectors first.
+/// What is clearly above a new triangle, nearer than others, goes there without being measured; nearest sectors first.
 bool SurfaceImage::is_unnoticed(Member& member, const glm::dvec3& place, double unnoticed_m) const {
     const size_t count = fan_.corners.size();
     for (size_t away = 0; away < count; ++away) {
@@ -247,7 +247,7 @@ bool SurfaceImage::is_unnoticed(Member& member, const glm::dvec3& place, double 
         const bool is_ccw = away % 2 == 0;
         const size_t sector = member.from + (is_ccw ? turn : count - turn);
         const size_t to = sector >= count ? sector - count : sector;
-        if (!sectors_[to].is_below(place, unnoticed_m)) continue;
+        if (!sectors_[to].is_below(place, away == 0 ? unnoticed_m : kNearShare * unnoticed_m)) continue;
         member.to = static_cast<uint32_t>(to);
         member.is_ccw = fan_.is_closed ? is_ccw : member.to > member.from;
         return true;

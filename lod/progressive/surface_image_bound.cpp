@@ -126,9 +126,8 @@ void SurfaceImage::find_owner() {
     owner_[p_] = owner_[centre_];
     owned_[owner_[p_]].push_back(p_);
     double apart = owner_distance(p_, owner_[p_]);
-    const double unnoticed_m = std::max(enough_m_, glm::sqrt(bound2_));
     std::vector<uint32_t> steps;
-    for (bool is_moving = true; is_moving && apart > unnoticed_m;) {
+    for (bool is_moving = true; is_moving && apart > enough_m_;) {
         is_moving = find_way(owner_[p_], apart);
         steps.clear();
         for (size_t i = way_.size() - 1; i > 0; i = way_[i].before)
