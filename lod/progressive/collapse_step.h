@@ -11,8 +11,9 @@ namespace lod {
 
 struct CollapseStep {
     std::array<NodeId, 2> children{};
-    glm::vec3 position{0.0f};           ///< of p, mesh frame
-    std::span<const CornerId> kept;     ///< corners of both children that are p's from now on; the triangles live on
+    glm::vec3 position{0.0f};  ///< of p, mesh frame
+    std::span<const CornerId>
+        kept;  ///< corners of both children that are p's from now on; the triangles live on
     std::span<const uint32_t> removed;  ///< triangles that hold both children
 };
 

@@ -82,7 +82,8 @@ void bound_places(VertexHierarchy& h) {
         for (const NodeId* corner = corners; corner < corners + 3; ++corner)
             spheres[node] = around(spheres[node], {place(h, *corner), double(h.error_m[node])});
     };
-    replay(h, take, [&](NodeId node, NodeId child) { spheres[node] = around(spheres[node], spheres[child]); });
+    replay(h, take,
+           [&](NodeId node, NodeId child) { spheres[node] = around(spheres[node], spheres[child]); });
     h.centre.clear(), h.radius_m.clear();
     for (const Sphere& sphere : spheres) {
         const glm::vec3 centre(sphere.centre);

@@ -39,8 +39,7 @@ inline double squared_distance_of_pair(const glm::dvec3& a, const glm::dvec3& b,
     const double ab2 = glm::dot(ab, ab), cd2 = glm::dot(cd, cd), both = glm::dot(ab, cd);
     const double ab_ca = glm::dot(ab, ca), cd_ca = glm::dot(cd, ca);
     const double size2 = ab2 * cd2 - both * both;
-    const double share_ab =
-        size2 > 0.0 ? std::clamp((both * cd_ca - ab_ca * cd2) / size2, 0.0, 1.0) : 0.5;
+    const double share_ab = size2 > 0.0 ? std::clamp((both * cd_ca - ab_ca * cd2) / size2, 0.0, 1.0) : 0.5;
     const double share_cd = cd2 > 0.0 ? std::clamp((both * share_ab + cd_ca) / cd2, 0.0, 1.0) : 0.0;
     return squared_distance(a + share_ab * ab, c + share_cd * cd);
 }

@@ -120,8 +120,8 @@ lod::VertexHierarchy flat_hierarchy(const data::HeightGrid& grid, const lod::Sur
     lod::DecimateOptions options;
     options.place = lod::CollapsePlace::kEnd;
     lod::ErrorProof proof(manifold->positions, manifold->triangles);
-    lod::VertexHierarchy hierarchy = lod::decimate(
-        *manifold, options, [&proof](const lod::CollapseStep& step) { proof.take(step); });
+    lod::VertexHierarchy hierarchy =
+        lod::decimate(*manifold, options, [&proof](const lod::CollapseStep& step) { proof.take(step); });
     hierarchy.error_m = proof.errors_m();
     samples = samples_of(hierarchy.position, flat);
     for (size_t node = 0; node < samples.size(); ++node)
