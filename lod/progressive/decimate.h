@@ -40,7 +40,7 @@ struct DecimateOptions {
 /// Borders move along themselves only; locked leaves do not move, and two of them do not become one.
 /// Deterministic; ties go by edge length, then index.
 /// @param follow  is told of every collapse as soon as it is recorded
-/// Cost: about 8 us a collapse.
+/// Cost: about 6 us a collapse, without `follow`.
 VertexHierarchy decimate(const ManifoldMesh& mesh, const DecimateOptions& options,
                          const std::function<void(const CollapseStep&)>& follow);
 
