@@ -101,8 +101,8 @@ std::vector<uint32_t> number_equal(std::span<const uint32_t> words, size_t words
     for (size_t i = 0; i < count; ++i) {
         uint64_t hash = 0;
         for (const uint32_t word : item(i))
-            hash = lod::hash_combine(hash, word);
-        size_t slot = hash & (slots.size() - 1);
+            hash = (std::rotl(hash, 23) ^ word) * 0x9e3779b97f4a7c15u;
+        size_t slot = lod::mix64(hash) & (slots.size() - 1);
         while (slots[slot] != kNone && !std::ranges::equal(item(first[slots[slot]]), item(i)))
             slot = (slot + 1) & (slots.size() - 1);
         if (slots[slot] == kNone) {

@@ -65,6 +65,15 @@ std::vector<PartPlan> plan_parts(const data::PolygonMesh& mesh) {
     return plans;
 }
 
+/// The part with more than half of all triangles; the number of parts: none.
+size_t main_part_of(const std::vector<PartPlan>& plans) {
+    size_t all = 0;
+    for (const PartPlan& plan : plans)
+        all += plan.surface.triangles.size();
+    const auto is_main = [all](const PartPlan& plan) { return 2 * plan.surface.triangles.size() > all; };
+    return static_cast<size_t>(std::find_if(plans.begin(), plans.end(), is_main) - plans.begin());
+}
+
 bool has_area(const lod::SurfaceMesh& surface) {
     return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const auto& t) {
         const glm::vec3 &a = surface.positions[t[0]], &b = surface.positions[t[1]],
@@ -85,19 +94,26 @@ lod::Result<lod::ProgressiveModel> build_model(const data::PolygonMesh& mesh,
     std::erase_if(plans, [](const PartPlan& plan) { return !has_area(plan.surface); });
     if (plans.empty()) return lod::Error{"no triangle with three different corners; expected at least one"};
     model.parts.resize(plans.size());
+    const auto build = [&](size_t i, unsigned part_threads) {
+        lod::ProgressivePart& part = model.parts[i];
+        part.node = plans[i].node;
+        part.is_glass = plans[i].is_glass;
+        lod::BuildOptions part_options = options;
+        part_options.threads = part_threads;
+        lod::Result<lod::VertexHierarchy> built =
+            lod::build_hierarchy(plans[i].surface, part_options, part.report);
+        if (built)
+            part.hierarchy = std::move(*built);
+        else
+            plans[i].failure = built.error();
+    };
+    // A part that would keep one thread busy when all others are done has them all first.
+    const size_t main_part = main_part_of(plans);
+    if (main_part < plans.size()) build(main_part, threads);
     std::atomic<size_t> next{0};
     lod::parallel_for(plans.size(), threads, [&](size_t, size_t) {
-        for (size_t i = next++; i < plans.size(); i = next++) {
-            lod::ProgressivePart& part = model.parts[i];
-            part.node = plans[i].node;
-            part.is_glass = plans[i].is_glass;
-            lod::Result<lod::VertexHierarchy> built =
-                lod::build_hierarchy(plans[i].surface, options, part.report);
-            if (built)
-                part.hierarchy = std::move(*built);
-            else
-                plans[i].failure = built.error();
-        }
+        for (size_t i = next++; i < plans.size(); i = next++)
+            if (i != main_part) build(i, 1);
     });
     for (const PartPlan& plan : plans) {
         if (plan.failure)

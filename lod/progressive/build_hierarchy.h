@@ -1,4 +1,7 @@
 // Building a vertex hierarchy, from triangles to proved errors: weld, decimate, prove, bound.
+//
+//     one thread    decimate ── cones ──┐                  the proof needs nothing but the collapses, in their order,
+//     the other        └─ batches ─ prove ─ spheres        so the result is the same on one thread and on two
 #pragma once
 
 #include "lod/base/result.h"
@@ -11,10 +14,11 @@ namespace lod {
 struct BuildOptions {
     double weld_m = 0.0;  ///< places no farther apart become one
     DecimateOptions decimate;
+    unsigned threads = 1;  ///< two are used at the most; the result is the same for any number
 };
 
 /// Fails as make_manifold does. Deterministic.
-/// Cost: about 12 us a triangle.
+/// Cost: about 12 us a triangle on one thread.
 Result<VertexHierarchy> build_hierarchy(const SurfaceMesh& mesh, const BuildOptions& options,
                                         MeshReport& report);
 

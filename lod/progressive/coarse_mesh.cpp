@@ -1,27 +1,35 @@
 #include "lod/progressive/coarse_mesh.h"
 
-#include <algorithm>
-
 #include "lod/base/check.h"
 
 namespace lod {
 
-CoarseMesh::CoarseMesh(const VertexHierarchy& hierarchy) {
-    std::vector<std::array<uint32_t, 3>> sides;  // from, to, corner
-    for (const auto& triangle : hierarchy.triangles) {
-        for (size_t k = 0; k < 3; ++k) {
-            sides.push_back({triangle[k], triangle[(k + 1) % 3], static_cast<CornerId>(node_.size())});
-            node_.push_back(triangle[k]);
+CoarseMesh::CoarseMesh(std::span<const std::array<NodeId, 3>> triangles, uint32_t leaf_count) {
+    node_.reserve(3 * triangles.size());
+    std::vector<uint32_t> begin(leaf_count + 1, 0);  // into leaving
+    for (const auto& triangle : triangles) {
+        for (NodeId leaf : triangle) {
+            node_.push_back(leaf);
+            ++begin[leaf + 1];
         }
     }
-    mate_.assign(node_.size(), kNoCorner);
-    std::sort(sides.begin(), sides.end());
-    for (size_t i = 0; i < sides.size(); ++i) {
-        const auto [from, to, corner] = sides[i];
-        CHECK(i == 0 || sides[i - 1][0] != from || sides[i - 1][1] != to);
-        const std::array<uint32_t, 3> wanted{to, from, 0};
-        const auto found = std::lower_bound(sides.begin(), sides.end(), wanted);
-        if (found != sides.end() && (*found)[0] == to && (*found)[1] == from) mate_[corner] = (*found)[2];
+    for (uint32_t leaf = 0; leaf < leaf_count; ++leaf)
+        begin[leaf + 1] += begin[leaf];
+    std::vector<CornerId> leaving(node_.size());
+    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
+    for (CornerId corner = 0; corner < node_.size(); ++corner)
+        leaving[next[node_[corner]]++] = corner;
+    // The only half-edge of a leaf that leads to `to`; itself stays out of question.
+    const auto find = [&](NodeId from, NodeId to, CornerId self) {
+        for (uint32_t i = begin[from]; i < begin[from + 1]; ++i) {
+            if (leaving[i] != self && head(leaving[i]) == to) return leaving[i];
+        }
+        return kNoCorner;
+    };
+    mate_.resize(node_.size());
+    for (CornerId corner = 0; corner < node_.size(); ++corner) {
+        CHECK(find(node_[corner], head(corner), corner) == kNoCorner);
+        mate_[corner] = find(head(corner), node_[corner], corner);
     }
 }
 

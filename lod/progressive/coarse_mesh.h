@@ -18,13 +18,6 @@ namespace lod {
 
 inline constexpr CornerId kNoCorner = 0xffffffffu;
 
-inline CornerId next_corner(CornerId corner) {
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-inline CornerId prev_corner(CornerId corner) {
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
-
 /// The corners of one node, counter-clockwise. Open at a border: then the first one's half-edge is the border.
 struct Fan {
     std::vector<CornerId> corners;
@@ -34,7 +27,7 @@ struct Fan {
 class CoarseMesh {
   public:
     /// The full mesh. CHECKs that it is a manifold.
-    explicit CoarseMesh(const VertexHierarchy& hierarchy);
+    CoarseMesh(std::span<const std::array<NodeId, 3>> triangles, uint32_t leaf_count);
 
     NodeId node(CornerId corner) const { return node_[corner]; }
     NodeId head(CornerId corner) const { return node_[next_corner(corner)]; }

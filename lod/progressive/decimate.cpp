@@ -49,7 +49,7 @@ struct Target {
 class Decimator {
   public:
     Decimator(const ManifoldMesh& mesh, const DecimateOptions& options);
-    VertexHierarchy run();
+    VertexHierarchy run(const std::function<void(const CollapseStep&)>& follow);
 
   private:
     void add_faces();
@@ -323,20 +323,23 @@ void Decimator::collapse(Edge edge, const glm::vec3& position) {
         offer_again(*it);
 }
 
-VertexHierarchy Decimator::run() {
+VertexHierarchy Decimator::run(const std::function<void(const CollapseStep&)>& follow) {
     for (const Edge edge : half_edges_.edges())
         offer(edge);
     while (!heap_.is_empty()) {
         const Edge edge(static_cast<int>(heap_.top()));
-        if (consider(edge)) collapse(edge, targets_[index(edge)]);
+        if (!consider(edge)) continue;
+        collapse(edge, targets_[index(edge)]);
+        follow(recorder_.last_step());
     }
     return recorder_.finish();
 }
 
 }  // namespace
 
-VertexHierarchy decimate(const ManifoldMesh& mesh, const DecimateOptions& options) {
-    return Decimator(mesh, options).run();
+VertexHierarchy decimate(const ManifoldMesh& mesh, const DecimateOptions& options,
+                         const std::function<void(const CollapseStep&)>& follow) {
+    return Decimator(mesh, options).run(follow);
 }
 
 }  // namespace lod

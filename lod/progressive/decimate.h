@@ -8,6 +8,9 @@
 // inside a tolerance volume (1996) for the quality; half-edges: OpenMesh.
 #pragma once
 
+#include <functional>
+
+#include "lod/progressive/collapse_step.h"
 #include "lod/progressive/manifold_mesh.h"
 #include "lod/progressive/vertex_hierarchy.h"
 
@@ -36,7 +39,9 @@ struct DecimateOptions {
 /// Collapses until nothing safe is left. The result has no errors, spheres and cones yet.
 /// Borders move along themselves only; locked leaves do not move, and two of them do not become one.
 /// Deterministic; ties go by edge length, then index.
-/// Cost: about 8 us a collapse.
-VertexHierarchy decimate(const ManifoldMesh& mesh, const DecimateOptions& options);
+/// @param follow  is told of every collapse as soon as it is recorded
+/// Cost: about 6 us a collapse, without `follow`.
+VertexHierarchy decimate(const ManifoldMesh& mesh, const DecimateOptions& options,
+                         const std::function<void(const CollapseStep&)>& follow);
 
 }  // namespace lod

@@ -7,21 +7,21 @@ namespace {
 
 /// Cancels inverse pairs, also across the ends.
 void reduce_loop(const CoarseMesh& mesh, Word& loop) {
-    Word reduced;
+    size_t end = 0;
     for (CornerId letter : loop) {
-        if (!reduced.empty() && reduced.back() == mesh.mate(letter)) {
-            reduced.pop_back();
+        if (end > 0 && loop[end - 1] == mesh.mate(letter)) {
+            --end;
         } else {
-            reduced.push_back(letter);
+            loop[end++] = letter;
         }
     }
-    size_t begin = 0, end = reduced.size();
-    while (end - begin >= 2 && reduced[begin] == mesh.mate(reduced[end - 1])) {
+    size_t begin = 0;
+    while (end - begin >= 2 && loop[begin] == mesh.mate(loop[end - 1])) {
         ++begin;
         --end;
     }
-    loop.assign(reduced.begin() + static_cast<std::ptrdiff_t>(begin),
-                reduced.begin() + static_cast<std::ptrdiff_t>(end));
+    loop.resize(end);
+    loop.erase(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
 /// The node round which a letter goes: on its left when counter-clockwise.
@@ -29,12 +29,13 @@ NodeId pivot(const CoarseMesh& mesh, CornerId letter, bool is_ccw) {
     return is_ccw ? mesh.head(letter) : mesh.node(letter);
 }
 
+}  // namespace
+
 /// Sends the longest run round `node` the other way, when that is shorter. Leaves the run at the loop's front.
-bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop) {
-    Fan fan;
-    mesh.fan_at(corner, fan);
-    const size_t around = fan.corners.size();
-    if (!fan.is_closed) return false;
+bool Filling::shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop) {
+    mesh.fan_at(corner, fan_);
+    const size_t around = fan_.corners.size();
+    if (!fan_.is_closed) return false;
     for (const bool is_ccw : {true, false}) {
         const auto turns = [&](CornerId letter) { return pivot(mesh, letter, is_ccw) == node; };
         const auto stop = std::find_if_not(loop.begin(), loop.end(), turns);
@@ -48,25 +49,23 @@ bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& l
             const size_t run = end - begin;
             // From the triangle before the run to the one behind it, round the other side.
             const CornerId first = is_ccw ? next_corner(loop[0]) : loop[0];
-            const auto at = std::find(fan.corners.begin(), fan.corners.end(), first);
-            if (at == fan.corners.end()) return false;
-            const auto from = static_cast<size_t>(at - fan.corners.begin());
+            const auto at = std::find(fan_.corners.begin(), fan_.corners.end(), first);
+            if (at == fan_.corners.end()) return false;
+            const auto from = static_cast<size_t>(at - fan_.corners.begin());
             const size_t to = is_ccw ? (from + run) % around : (from + around - run) % around;
-            Word other;
+            other_.clear();
             if (run != around)
-                walk_fan(fan, from, to, !is_ccw, [&](CornerId letter) { other.push_back(letter); });
+                walk_fan(fan_, from, to, !is_ccw, [&](CornerId letter) { other_.push_back(letter); });
             loop.erase(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(run));
-            loop.insert(loop.begin(), other.begin(), other.end());
+            loop.insert(loop.begin(), other_.begin(), other_.end());
             return true;
         }
     }
     return false;
 }
 
-}  // namespace
-
-bool is_fillable(const CoarseMesh& mesh, Word loop, std::span<const NodeId> pierced,
-                 std::span<const CornerId> corner_of_node) {
+bool Filling::is_fillable(const CoarseMesh& mesh, Word& loop, std::span<const NodeId> pierced,
+                          std::span<const CornerId> corner_of_node) {
     reduce_loop(mesh, loop);
     while (!loop.empty()) {
         const bool is_shorter = std::any_of(pierced.begin(), pierced.end(), [&](NodeId node) {

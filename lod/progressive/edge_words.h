@@ -35,10 +35,21 @@ void walk_fan(const Fan& fan, size_t from, size_t to, bool is_ccw, const Visit& 
     }
 }
 
-/// Whether a closed path, started anywhere, can be drawn together to a point without crossing any node but `pierced`.
-/// Greedy: a run round a pierced node that is longer than half of its fan goes the other way. May fail to see that it
-/// can, never the reverse.
-bool is_fillable(const CoarseMesh& mesh, Word loop, std::span<const NodeId> pierced,
-                 std::span<const CornerId> corner_of_node);
+/// Whether closed paths can be drawn together; keeps what it needs for that.
+class Filling {
+  public:
+    /// Whether a path, started anywhere, can be drawn together to a point without crossing any node but `pierced`.
+    /// Greedy: a run round a pierced node that is longer than half of its fan goes the other way. May fail to see that
+    /// it can, never the reverse.
+    /// @param loop  the path; used up
+    bool is_fillable(const CoarseMesh& mesh, Word& loop, std::span<const NodeId> pierced,
+                     std::span<const CornerId> corner_of_node);
+
+  private:
+    bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop);
+
+    Fan fan_;
+    Word other_;
+};
 
 }  // namespace lod

@@ -4,24 +4,22 @@
 #include <cmath>
 #include <limits>
 
-#include "lod/progressive/surface_image.h"
-
 namespace lod {
 
-void prove_errors(VertexHierarchy& h) {
+ErrorProof::ErrorProof(std::span<const glm::vec3> leaves, std::span<const std::array<NodeId, 3>> triangles)
+    : image_(leaves, triangles), errors_m_(leaves.size(), 0.0f) {
     double largest = 0.0;
-    for (const glm::vec3& p : h.position)
+    for (const glm::vec3& p : leaves)
         largest = std::max({largest, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
-    const double noise = largest * 0x1p-40;
-    h.error_m.assign(h.node_count(), 0.0f);
-    SurfaceImage image(h);
-    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
-        const auto [a, b] = h.children[k];
-        const double bound = image.collapse(k, double(std::max(h.error_m[a], h.error_m[b])));
-        float error_m = static_cast<float>(bound);
-        if (double(error_m) < bound) error_m = std::nextafter(error_m, std::numeric_limits<float>::max());
-        h.error_m[h.leaf_count + k] = std::max({h.error_m[a], h.error_m[b], bound > noise ? error_m : 0.0f});
-    }
+    noise_m_ = largest * 0x1p-40;
+}
+
+void ErrorProof::take(const CollapseStep& step) {
+    const float least_m = std::max(errors_m_[step.children[0]], errors_m_[step.children[1]]);
+    const double bound = image_.collapse(step, double(least_m));
+    float error_m = static_cast<float>(bound);
+    if (double(error_m) < bound) error_m = std::nextafter(error_m, std::numeric_limits<float>::max());
+    errors_m_.push_back(std::max(least_m, bound > noise_m_ ? error_m : 0.0f));
 }
 
 }  // namespace lod

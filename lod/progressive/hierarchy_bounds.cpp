@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lod/progressive/collapse_step.h"
+
 namespace lod {
 namespace {
 
@@ -45,67 +47,72 @@ Cone around(const Cone& a, const Cone& b) {
     return {a.axis * std::cos(turn) + across * (std::sin(turn) / length), angle};
 }
 
-/// What is gathered for the nodes, in double until all is known.
-struct Bounds {
-    std::vector<Sphere> spheres;
-    std::vector<Cone> cones;
-};
-
-/// Takes a triangle, given by nodes, into a node's bounds.
-void take_triangle(const VertexHierarchy& h, const NodeId* corners, NodeId node, Bounds& bounds) {
-    const glm::dvec3 a(h.position[corners[0]]), b(h.position[corners[1]]), c(h.position[corners[2]]);
-    const double slack = h.error_m.empty() ? 0.0 : double(h.error_m[node]);
-    Sphere& sphere = bounds.spheres[node];
-    for (const glm::dvec3& p : {a, b, c})
-        sphere = around(sphere, {p, slack});
-    const glm::dvec3 across = glm::cross(b - a, c - a);
-    const double length = glm::length(across);
-    if (length > 0.0) bounds.cones[node] = around(bounds.cones[node], {across / length, 0.0});
+glm::dvec3 place(const VertexHierarchy& h, NodeId node) {
+    return glm::dvec3(h.position[node]);
 }
 
-void round_outwards(VertexHierarchy& h, const Bounds& bounds) {
-    constexpr double kAngleSlack_rad = 1e-6;
-    for (size_t node = 0; node < h.node_count(); ++node) {
-        const Sphere& sphere = bounds.spheres[node];
-        const Cone& cone = bounds.cones[node];
+/// All triangles that nodes are made with, leaves' first: (its corners, the node), then of each collapse the node's two
+/// children.
+template <typename Take, typename Join>
+void replay(const VertexHierarchy& h, const Take& take, const Join& join) {
+    std::vector<NodeId> corners;
+    corners.reserve(3 * h.triangles.size());
+    for (const auto& triangle : h.triangles) {
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+        for (NodeId leaf : triangle)
+            take(triangle.data(), leaf);
+    }
+    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
+        const CollapseStep step = step_of(h, k);
+        const NodeId node = h.leaf_count + k;
+        for (NodeId child : step.children)
+            join(node, child);
+        for (CornerId corner : step.kept)
+            corners[corner] = node;
+        for (CornerId corner : step.kept)
+            take(&corners[corner / 3 * 3], node);
+    }
+}
+
+}  // namespace
+
+void bound_places(VertexHierarchy& h) {
+    std::vector<Sphere> spheres(h.node_count());
+    const auto take = [&](const NodeId* corners, NodeId node) {
+        for (const NodeId* corner = corners; corner < corners + 3; ++corner)
+            spheres[node] = around(spheres[node], {place(h, *corner), double(h.error_m[node])});
+    };
+    replay(h, take,
+           [&](NodeId node, NodeId child) { spheres[node] = around(spheres[node], spheres[child]); });
+    h.centre.clear(), h.radius_m.clear();
+    for (const Sphere& sphere : spheres) {
         const glm::vec3 centre(sphere.centre);
         const double shift = glm::length(glm::dvec3(centre) - sphere.centre);
         const auto radius = static_cast<float>(std::max(sphere.radius, 0.0) + shift);
         h.centre.push_back(centre);
         h.radius_m.push_back(radius * (1.0f + 4.0f * std::numeric_limits<float>::epsilon()) +
                              std::numeric_limits<float>::min());
+    }
+}
+
+void bound_normals(VertexHierarchy& h) {
+    constexpr double kAngleSlack_rad = 1e-6;
+    std::vector<Cone> cones(h.node_count());
+    const auto take = [&](const NodeId* corners, NodeId node) {
+        const glm::dvec3 a = place(h, corners[0]);
+        const glm::dvec3 across = glm::cross(place(h, corners[1]) - a, place(h, corners[2]) - a);
+        const double length = glm::length(across);
+        if (length > 0.0) cones[node] = around(cones[node], {across / length, 0.0});
+    };
+    replay(h, take, [&](NodeId node, NodeId child) { cones[node] = around(cones[node], cones[child]); });
+    h.cone_axis.clear(), h.cone_cos.clear();
+    for (const Cone& cone : cones) {
         const bool is_open = cone.angle_rad >= 0.0 && cone.angle_rad < 0.5 * kPi;
         h.cone_axis.push_back(cone.angle_rad < 0.0 ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(cone.axis));
         h.cone_cos.push_back(is_open ? static_cast<float>(std::cos(cone.angle_rad + kAngleSlack_rad)) -
                                            std::numeric_limits<float>::epsilon()
                                      : -1.0f);
     }
-}
-
-}  // namespace
-
-void bound_nodes(VertexHierarchy& h) {
-    Bounds bounds{std::vector<Sphere>(h.node_count()), std::vector<Cone>(h.node_count())};
-    std::vector<NodeId> corners;
-    corners.reserve(3 * h.triangles.size());
-    for (const auto& triangle : h.triangles) {
-        corners.insert(corners.end(), triangle.begin(), triangle.end());
-        for (NodeId leaf : triangle)
-            take_triangle(h, triangle.data(), leaf, bounds);
-    }
-    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
-        const NodeId node = h.leaf_count + k;
-        for (NodeId child : h.children[k]) {
-            bounds.spheres[node] = around(bounds.spheres[node], bounds.spheres[child]);
-            bounds.cones[node] = around(bounds.cones[node], bounds.cones[child]);
-        }
-        for (uint32_t i = h.kept_begin[2 * k]; i < h.kept_begin[2 * k + 2]; ++i)
-            corners[h.kept[i]] = node;
-        for (uint32_t i = h.kept_begin[2 * k]; i < h.kept_begin[2 * k + 2]; ++i)
-            take_triangle(h, &corners[h.kept[i] / 3 * 3], node, bounds);
-    }
-    h.centre.clear(), h.radius_m.clear(), h.cone_axis.clear(), h.cone_cos.clear();
-    round_outwards(h, bounds);
 }
 
 }  // namespace lod

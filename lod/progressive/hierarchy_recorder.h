@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "lod/progressive/collapse_step.h"
 #include "lod/progressive/manifold_mesh.h"
 #include "lod/progressive/vertex_hierarchy.h"
 
@@ -25,6 +26,9 @@ class HierarchyRecorder {
     /// Appends a node and returns its id; corners of a and b are the new node's from now on.
     /// Vertices of a and b that meet in a removed triangle become one, with mixed normal and colour; others live on.
     NodeId record(const EdgeCollapse& collapse);
+
+    /// What the last record() was; holds until the next.
+    CollapseStep last_step() const { return step_of(out_, out_.collapse_count() - 1); }
 
     /// The hierarchy, still without errors, spheres and cones.
     VertexHierarchy finish();

@@ -108,17 +108,29 @@ uint32_t next_corner(uint32_t corner) {
     return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
-std::vector<Side> sorted_sides(const Faces& faces) {
-    std::vector<Side> sides;
-    sides.reserve(3 * faces.places.size());
-    for (uint32_t corner = 0; corner < 3 * faces.places.size(); ++corner) {
+/// By the lower place, then the higher one, then the corner.
+std::vector<Side> sorted_sides(const Faces& faces, uint32_t places) {
+    std::vector<Side> sides(3 * faces.places.size());
+    const auto side_at = [&faces](uint32_t corner) {
         const uint32_t from = faces.places[corner / 3][corner % 3];
         const uint32_t next = next_corner(corner), to = faces.places[next / 3][next % 3];
-        sides.push_back({std::min(from, to), std::max(from, to), corner, from < to});
+        return Side{std::min(from, to), std::max(from, to), corner, from < to};
+    };
+    std::vector<uint32_t> next(places + 1, 0);
+    for (uint32_t corner = 0; corner < sides.size(); ++corner)
+        ++next[side_at(corner).low + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (uint32_t corner = 0; corner < sides.size(); ++corner) {
+        const Side side = side_at(corner);
+        sides[next[side.low]++] = side;
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-    });
+    for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+        while (end < sides.size() && sides[end].low == sides[begin].low)
+            ++end;
+        std::sort(&sides[begin], &sides[begin] + (end - begin), [](const Side& a, const Side& b) {
+            return std::tie(a.high, a.corner) < std::tie(b.high, b.corner);
+        });
+    }
     return sides;
 }
 
@@ -154,7 +166,7 @@ struct Sheets {
 
 Sheets join_sheets(const Faces& faces, uint32_t places, MeshReport& report) {
     Sheets sheets{std::vector<uint32_t>(3 * faces.places.size(), kNone), std::vector<uint8_t>(places, 0)};
-    const std::vector<Side> sides = sorted_sides(faces);
+    const std::vector<Side> sides = sorted_sides(faces, places);
     for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         while (end < sides.size() && sides[end].low == sides[begin].low &&
                sides[end].high == sides[begin].high)
@@ -202,20 +214,31 @@ void cut_out(uint32_t face, const Faces& faces, Sheets& sheets) {
     }
 }
 
+/// Where the corners of each leaf would begin in a list sorted by leaf; its length behind.
+std::vector<uint32_t> begins_of(const std::vector<uint32_t>& leaf_of) {
+    std::vector<uint32_t> begin(2 + *std::max_element(leaf_of.begin(), leaf_of.end()), 0);
+    for (uint32_t leaf : leaf_of)
+        ++begin[leaf + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    return begin;
+}
+
 /// Numbers the leaves; where a sheet meets itself along an edge, so that the same two leaves would share two edges,
 /// triangles are cut out until none do.
 std::vector<uint32_t> settle_leaves(const Faces& faces, Sheets& sheets) {
     for (;;) {
         std::vector<uint32_t> leaf_of = number_leaves(sheets.mates);
-        std::vector<std::array<uint32_t, 3>> sides;  // from, to, corner
-        for (uint32_t corner = 0; corner < leaf_of.size(); ++corner)
-            sides.push_back({leaf_of[corner], leaf_of[next_corner(corner)], corner});
-        std::sort(sides.begin(), sides.end());
+        const std::vector<uint32_t> begin = begins_of(leaf_of);
+        std::vector<uint32_t> next(begin), leads_to(leaf_of.size());  // by the leaf that a side leaves
         bool is_settled = true;
-        for (size_t i = 1; i < sides.size(); ++i) {
-            if (sides[i][0] != sides[i - 1][0] || sides[i][1] != sides[i - 1][1]) continue;
-            cut_out(sides[i][2] / 3, faces, sheets);
-            is_settled = false;
+        for (uint32_t corner = 0; corner < leaf_of.size(); ++corner) {
+            const uint32_t from = leaf_of[corner], to = leaf_of[next_corner(corner)];
+            const auto known = leads_to.begin() + begin[from], end = leads_to.begin() + next[from];
+            if (std::find(known, end, to) != end) {
+                cut_out(corner / 3, faces, sheets);
+                is_settled = false;
+            }
+            leads_to[next[from]++] = to;
         }
         if (is_settled) return leaf_of;
     }

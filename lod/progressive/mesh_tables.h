@@ -82,14 +82,6 @@ struct ProgressiveMesh {
     }
 };
 
-/// The other two corners of a corner's triangle, counter-clockwise.
-inline CornerId next_corner(CornerId corner) {
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-inline CornerId previous_corner(CornerId corner) {
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
-
 /// Derives the tables. The hierarchy must be one that fault_of() finds nothing wrong with (hierarchy_check.h).
 /// Cost: one replay of the collapses.
 ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass = false);

@@ -1,20 +1,45 @@
 #include "lod/progressive/surface_image.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lod/base/check.h"
 
 namespace lod {
+namespace {
 
-double SurfaceImage::collapse(uint32_t k, double enough_m) {
-    p_ = h_.leaf_count + k;
+/// A vertex this near, as a share of what its node's error is no less than, stays where it is: nobody will know.
+constexpr double kNearShare = 0.5;
+
+}  // namespace
+
+SurfaceImage::Sector::Sector(const Triangle& of) : triangle(of) {
+    constexpr double kThin2 = 1e-8;  // of sines: then rounding turns the normal by 1e-12 at the most
+    const glm::dvec3 ab = of.b - of.a, ac = of.c - of.a;
+    const glm::dvec3 across = glm::cross(ab, ac);
+    const double size2 = glm::dot(across, across);
+    is_thin = !(size2 > kThin2 * glm::dot(ab, ab) * glm::dot(ac, ac));
+    if (is_thin) return;
+    normal = across / glm::sqrt(size2);
+    inward = {glm::cross(normal, ab), glm::cross(normal, of.c - of.b), glm::cross(ac, normal)};
+}
+
+bool SurfaceImage::Sector::is_below(const glm::dvec3& place, double limit_m) const {
+    const glm::dvec3 from_a = place - triangle.a;
+    return std::abs(glm::dot(normal, from_a)) <= limit_m && glm::dot(inward[0], from_a) >= 0.0 &&
+           glm::dot(inward[2], from_a) >= 0.0 && glm::dot(inward[1], place - triangle.b) >= 0.0 && !is_thin;
+}
+
+double SurfaceImage::collapse(const CollapseStep& step, double enough_m) {
+    p_ = static_cast<NodeId>(positions_.size());
+    positions_.emplace_back(step.position);
     enough_m_ = std::max(enough_m, noise_m_);
     bound2_ = 0.0;
-    choose_centre(k);
-    gather_star(k);
+    choose_centre(step);
+    gather_star(step);
     plan_contracted();
-    carry_members(k);
-    replace_star(k);
+    carry_members();
+    replace_star(step);
     move_members();
     touch_moved();
     for (uint32_t edge : touched_)
@@ -40,8 +65,8 @@ CornerId SurfaceImage::canonical(CornerId corner) const {
 }
 
 /// The end that p continues: at a border the one that lies on it, else the nearer.
-void SurfaceImage::choose_centre(uint32_t k) {
-    const auto [a, b] = h_.children[k];
+void SurfaceImage::choose_centre(const CollapseStep& step) {
+    const auto [a, b] = step.children;
     const bool is_a_border = owner_[a] == kNone, is_b_border = owner_[b] == kNone;
     bool is_a_centre = squared_distance(at(a), at(p_)) <= squared_distance(at(b), at(p_));
     if (is_a_border != is_b_border) is_a_centre = is_a_border;
@@ -63,17 +88,17 @@ void SurfaceImage::touch_crossers(CornerId corner) {
 }
 
 /// Everything that the star's inner edges and its two nodes concern.
-void SurfaceImage::gather_star(uint32_t k) {
+void SurfaceImage::gather_star(const CollapseStep& step) {
     suspects_.clear(), star_.clear(), touched_.clear(), removed_.clear(), rules_.clear(), ruled_.clear();
-    for (uint32_t i = h_.kept_begin[2 * k]; i < h_.kept_begin[2 * k + 2]; ++i) {
-        star_.push_back(h_.kept[i] / 3);
-        touch_crossers(h_.kept[i]);
-        touch_crossers(prev_corner(h_.kept[i]));
+    for (CornerId corner : step.kept) {
+        star_.push_back(corner / 3);
+        touch_crossers(corner);
+        touch_crossers(prev_corner(corner));
     }
-    for (uint32_t i = h_.removed_begin[k]; i < h_.removed_begin[k + 1]; ++i) {
-        for (CornerId corner = 3 * h_.removed[i]; corner < 3 * h_.removed[i] + 3; ++corner)
+    for (uint32_t triangle : step.removed) {
+        for (CornerId corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
             touch_crossers(corner);
-        plan_removed(h_.removed[i]);
+        plan_removed(triangle);
     }
     for (NodeId node : {centre_, other_}) {
         for (uint32_t edge : passers_[node])
@@ -133,7 +158,7 @@ void SurfaceImage::plan_contracted() {
 }
 
 /// Takes the vertices off the old star; those of removed triangles stand beyond one of their sides now.
-void SurfaceImage::carry_members(uint32_t k) {
+void SurfaceImage::carry_members() {
     members_.clear(), start_.clear();
     const auto carry = [this](uint32_t triangle, CornerId to) {
         for (uint32_t vertex : on_[triangle]) {
@@ -153,25 +178,24 @@ void SurfaceImage::carry_members(uint32_t k) {
         }
         carry(r.triangle, r.beyond_o != kNoCorner ? r.beyond_o : r.beyond_c);
     }
-    DCHECK(star_.size() + removed_.size() ==
-           h_.kept_begin[2 * k + 2] - h_.kept_begin[2 * k] + removed_.size());
-    static_cast<void>(k);
 }
 
-void SurfaceImage::replace_star(uint32_t k) {
+void SurfaceImage::replace_star(const CollapseStep& step) {
     for (const Removed& r : removed_)
         mesh_.close_gap(r.side_c, r.side_o);
-    const uint32_t begin = h_.kept_begin[2 * k], end = h_.kept_begin[2 * k + 2];
-    CHECK(begin < end);
-    for (uint32_t i = begin; i < end; ++i)
-        mesh_.set_node(h_.kept[i], p_);
-    mesh_.fan_at(h_.kept[begin], fan_);
-    CHECK(fan_.corners.size() == end - begin);
+    CHECK(!step.kept.empty());
+    for (CornerId corner : step.kept)
+        mesh_.set_node(corner, p_);
+    mesh_.fan_at(step.kept.front(), fan_);
+    CHECK(fan_.corners.size() == step.kept.size());
     sectors_.clear();
     for (size_t i = 0; i < fan_.corners.size(); ++i) {
         const CornerId corner = fan_.corners[i];
         sector_of_[corner / 3] = static_cast<uint32_t>(i);
-        sectors_.push_back(coarse_triangle(corner));
+        sectors_.emplace_back(coarse_triangle(corner));
+        const CornerId outer = next_corner(corner);
+        enough_m_ = std::max({enough_m_, edge_bound_m_[outer], node_bound_m_[mesh_.node(outer)],
+                              node_bound_m_[mesh_.head(outer)]});
         corner_of_[p_] = corner;
         corner_of_[mesh_.node(next_corner(corner))] = next_corner(corner);
         corner_of_[mesh_.node(prev_corner(corner))] = prev_corner(corner);
@@ -215,12 +239,31 @@ void SurfaceImage::touch_moved() {
     }
 }
 
-/// Downhill first; where that ends farther off than anything before, every sector is tried.
+/// What is clearly above a new triangle, nearer than others, goes there without being measured; nearest sectors first.
+bool SurfaceImage::is_unnoticed(Member& member, const glm::dvec3& place, double unnoticed_m) const {
+    const size_t count = fan_.corners.size();
+    for (size_t away = 0; away < count; ++away) {
+        const size_t turn = (away + 1) / 2;  // 0, 1 clockwise, 1 counter-clockwise, 2 clockwise ...
+        const bool is_ccw = away % 2 == 0;
+        const size_t sector = member.from + (is_ccw ? turn : count - turn);
+        const size_t to = sector >= count ? sector - count : sector;
+        if (!sectors_[to].is_below(place, away == 0 ? unnoticed_m : kNearShare * unnoticed_m)) continue;
+        member.to = static_cast<uint32_t>(to);
+        member.is_ccw = fan_.is_closed ? is_ccw : member.to > member.from;
+        return true;
+    }
+    return false;
+}
+
+/// What is near stays. Else downhill first; where that ends farther off than anything before, every sector is tried.
 void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
     const size_t count = fan_.corners.size();
-    double least2 = squared_distance(place, sectors_[member.from]);
+    const double unnoticed_m = std::max(enough_m_, glm::sqrt(bound2_)), near_m = kNearShare * unnoticed_m;
+    if (is_unnoticed(member, place, unnoticed_m)) return;
+    double least2 = squared_distance(place, sectors_[member.from].triangle);
+    if (least2 <= near_m * near_m) return;
     const auto attempt = [&](size_t sector) {
-        const double apart2 = squared_distance(place, sectors_[sector]);
+        const double apart2 = squared_distance(place, sectors_[sector].triangle);
         if (apart2 >= least2) return false;
         least2 = apart2;
         member.to = static_cast<uint32_t>(sector);
@@ -233,7 +276,7 @@ void SurfaceImage::move_inner(Member& member, const glm::dvec3& place) {
             at = is_up ? (at + 1) % count : (at + count - 1) % count;
         } while (least2 > 0.0 && attempt(at));
     }
-    for (size_t sector = 0; sector < count && least2 > std::max(bound2_, enough_m_ * enough_m_); ++sector)
+    for (size_t sector = 0; sector < count && least2 > unnoticed_m * unnoticed_m; ++sector)
         attempt(sector);
     const size_t ccw = (member.to + count - member.from) % count;
     member.is_ccw = fan_.is_closed ? 2 * ccw <= count : member.to > member.from;
@@ -267,6 +310,11 @@ void SurfaceImage::rewrite(uint32_t index) {
     FullEdge& edge = edges_[index];
     const Member* u = member_of_[edge.u] == kNone ? nullptr : &members_[member_of_[edge.u]];
     const Member* v = member_of_[edge.v] == kNone ? nullptr : &members_[member_of_[edge.v]];
+    const bool stays = edge.right != kNoCorner && (u == nullptr || u->to == u->from) &&
+                       (v == nullptr || v->to == v->from) &&
+                       std::all_of(edge.word.begin(), edge.word.end(),
+                                   [this](CornerId letter) { return rule_of_[letter] == kNone; });
+    if (stays) return suspect(edge);
     scratch_.clear();
     const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
     if (u != nullptr) walk_fan(fan_, u->to, u->from, !u->is_ccw, add);

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "lod/progressive/coarse_mesh.h"
+#include "lod/progressive/collapse_step.h"
 #include "lod/progressive/edge_words.h"
 #include "lod/progressive/vertex_hierarchy.h"
 #include "lod/surface/triangle.h"
@@ -39,15 +40,17 @@ namespace lod {
 class SurfaceImage {
   public:
     /// The image of the full mesh on itself.
-    explicit SurfaceImage(const VertexHierarchy& hierarchy);
+    /// @param leaves     places, mesh frame
+    /// @param triangles  of leaves; a manifold. Kept by reference, must not change
+    SurfaceImage(std::span<const glm::vec3> leaves, std::span<const std::array<NodeId, 3>> triangles);
 
-    /// Replays collapse k; they come in order.
+    /// Takes the next collapse; its node's number is that of the leaves and all nodes before.
     /// @param enough_m  no search goes on below this: the node's error is no less anyway
-    /// @returns         the bound for the triangles it makes, m
-    double collapse(uint32_t k, double enough_m = 0.0);
+    /// @returns         the bound for the triangles it makes, m; what is below enough_m may be left out
+    double collapse(const CollapseStep& step, double enough_m = 0.0);
 
     /// Whether all full triangles can be drawn together as claimed. For tests; O(n).
-    bool is_sound() const;
+    bool is_sound();
 
   private:
     static constexpr uint32_t kNone = 0xffffffffu;
@@ -74,20 +77,33 @@ class SurfaceImage {
         bool is_forward = true;  ///< … in the direction of the border
     };
 
+    /// A new triangle, and when a vertex is clearly above its inside.
+    struct Sector {
+        Triangle triangle;
+        std::array<glm::dvec3, 3> inward{};  ///< square to the sides, in its plane
+        glm::dvec3 normal{0.0};              ///< unit length
+        bool is_thin = true;                 ///< too thin for a normal
+
+        explicit Sector(const Triangle& of);
+        /// Whether the nearest point is inside of it and no farther than `limit_m`. Never true when it is farther.
+        bool is_below(const glm::dvec3& place, double limit_m) const;
+    };
+
     void begin_edges();
     void begin_vertices();
     void begin_words();
     void begin_owner(const Fan& fan, NodeId leaf);
 
-    void choose_centre(uint32_t k);
-    void gather_star(uint32_t k);
+    void choose_centre(const CollapseStep& step);
+    void gather_star(const CollapseStep& step);
     void touch_crossers(CornerId corner);
     void touch(uint32_t edge);
     void plan_removed(uint32_t triangle);
     void plan_contracted();
-    void carry_members(uint32_t k);
-    void replace_star(uint32_t k);
+    void carry_members();
+    void replace_star(const CollapseStep& step);
     void move_members();
+    bool is_unnoticed(Member& member, const glm::dvec3& at, double unnoticed_m) const;
     void move_inner(Member& member, const glm::dvec3& at);
     void move_border(Member& member, const glm::dvec3& at);
     void rewrite(uint32_t edge);
@@ -103,16 +119,17 @@ class SurfaceImage {
     bool send_round(FullEdge& edge, bool is_ccw);
     void file_crossers();
     double star_bound();
-    double crossing_bound(const FullEdge& edge, CornerId corner) const;
+    double crossing_bound(const FullEdge& edge, CornerId corner, double unnoticed2) const;
     double owner_distance(NodeId node, uint32_t triangle) const;
 
     CornerId canonical(CornerId corner) const;
-    glm::dvec3 at(NodeId node) const { return glm::dvec3(h_.position[node]); }
+    const glm::dvec3& at(NodeId node) const { return positions_[node]; }
     Triangle coarse_triangle(CornerId corner) const;
-    Word loop_of(uint32_t triangle) const;
-    bool can_fill(uint32_t triangle) const;
+    bool can_fill(uint32_t triangle);
 
-    const VertexHierarchy& h_;
+    std::span<const std::array<NodeId, 3>> triangles_;
+    uint32_t leaf_count_ = 0;
+    std::vector<glm::dvec3> positions_;  // [nodes so far]
     CoarseMesh mesh_;
     std::vector<FullEdge> edges_;
     std::vector<uint32_t> edge_of_;          // [corners of the full mesh]
@@ -133,7 +150,7 @@ class SurfaceImage {
     // The collapse at hand.
     NodeId p_ = 0, centre_ = 0, other_ = 0;
     Fan fan_;
-    std::vector<Triangle> sectors_;     // of the fan: the new triangles
+    std::vector<Sector> sectors_;       // of the fan: the new triangles
     std::vector<uint32_t> star_;        // old triangles
     std::vector<uint32_t> removed_to_;  // [2] per removed triangle: where its vertices go
     std::vector<Member> members_;
@@ -144,7 +161,8 @@ class SurfaceImage {
         double apart = 0.0;
     };
     std::vector<Step> way_;  // full triangles looked at on the way to a nearer owner
-    Word scratch_;
+    Word scratch_, before_, loop_;
+    Filling filling_;
     std::vector<uint32_t> suspects_;   // vertices with an edge that goes round p at once
     std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
     std::vector<uint8_t> is_touched_;  // [edges]

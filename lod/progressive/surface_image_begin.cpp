@@ -26,24 +26,31 @@ size_t sector_of(const Fan& fan, CornerId corner) {
 
 }  // namespace
 
-SurfaceImage::SurfaceImage(const VertexHierarchy& hierarchy) : h_(hierarchy), mesh_(hierarchy) {
+SurfaceImage::SurfaceImage(std::span<const glm::vec3> leaves,
+                           std::span<const std::array<NodeId, 3>> triangles)
+    : triangles_(triangles),
+      leaf_count_(static_cast<uint32_t>(leaves.size())),
+      positions_(leaves.begin(), leaves.end()),
+      mesh_(triangles, leaf_count_) {
     const size_t corners = mesh_.corner_count();
+    const size_t most_nodes = 2 * leaves.size();  // a collapse makes one of two
+    positions_.reserve(most_nodes);
     edge_of_.resize(corners);
-    on_.resize(h_.triangles.size());
-    triangle_of_.resize(h_.leaf_count);
-    border_of_.resize(h_.leaf_count, kNoCorner);
+    on_.resize(triangles_.size());
+    triangle_of_.resize(leaf_count_);
+    border_of_.resize(leaf_count_, kNoCorner);
     crossers_.resize(corners);
-    passers_.resize(h_.node_count());
-    owner_.resize(h_.node_count(), kNone);
-    owned_.resize(h_.triangles.size());
-    corner_of_.resize(h_.node_count(), kNoCorner);
+    passers_.resize(most_nodes);
+    owner_.resize(most_nodes, kNone);
+    owned_.resize(triangles_.size());
+    corner_of_.resize(most_nodes, kNoCorner);
     edge_bound_m_.resize(corners, 0.0);
-    node_bound_m_.resize(h_.node_count(), 0.0);
-    member_of_.resize(h_.leaf_count, kNone);
-    sector_of_.resize(h_.triangles.size(), kNone);
+    node_bound_m_.resize(most_nodes, 0.0);
+    member_of_.resize(leaf_count_, kNone);
+    sector_of_.resize(triangles_.size(), kNone);
     rule_of_.resize(corners, kNone);
-    for (const glm::vec3& p : h_.position)
-        noise_m_ = std::max({noise_m_, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
+    for (const glm::dvec3& p : positions_)
+        noise_m_ = std::max({noise_m_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     noise_m_ *= 0x1p-40;
     begin_edges();
     is_touched_.resize(edges_.size(), 0);
@@ -69,7 +76,7 @@ void SurfaceImage::begin_edges() {
             edge_of_[mate] = edge;
         }
     }
-    incident_begin_.assign(h_.leaf_count + 1, 0);
+    incident_begin_.assign(leaf_count_ + 1, 0);
     for (const FullEdge& edge : edges_)
         ++incident_begin_[edge.u + 1], ++incident_begin_[edge.v + 1];
     for (size_t i = 1; i < incident_begin_.size(); ++i)
@@ -86,7 +93,7 @@ void SurfaceImage::begin_edges() {
 void SurfaceImage::begin_vertices() {
     Fan fan;
     for (const bool is_tail : {true, false}) {
-        for (uint32_t leaf = 0; leaf < h_.leaf_count; ++leaf) {
+        for (uint32_t leaf = 0; leaf < leaf_count_; ++leaf) {
             mesh_.fan_at(corner_of_[leaf], fan);
             const auto count = static_cast<int>(fan.corners.size());
             for (uint32_t i = incident_begin_[leaf]; i < incident_begin_[leaf + 1]; ++i) {

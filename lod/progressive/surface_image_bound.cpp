@@ -33,8 +33,8 @@ void SurfaceImage::turn_vertex(uint32_t vertex, bool is_ccw) {
     const size_t count = fan_.corners.size(), sector = sector_of_[triangle_of_[vertex]];
     for (uint32_t i = incident_begin_[vertex]; i < incident_begin_[vertex + 1]; ++i) {
         FullEdge& edge = edges_[incident_[i]];
-        Word word;
-        const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+        scratch_.clear();
+        const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
         const auto turn = [&](bool turns_ccw) {
             const size_t next = (turns_ccw ? sector + 1 : sector + count - 1) % count;
             if (count > 1) walk_fan(fan_, sector, next, turns_ccw, add);
@@ -44,7 +44,7 @@ void SurfaceImage::turn_vertex(uint32_t vertex, bool is_ccw) {
         for (CornerId letter : edge.word)
             add(letter);
         if (edge.v == vertex) turn(is_ccw);
-        edge.word = std::move(word);
+        edge.word.assign(scratch_.begin(), scratch_.end());
         suspect(edge);
         touch(incident_[i]);
     }
@@ -90,7 +90,7 @@ void SurfaceImage::untwist() {
 }
 
 double SurfaceImage::owner_distance(NodeId node, uint32_t triangle) const {
-    const auto& [a, b, c] = h_.triangles[triangle];
+    const auto& [a, b, c] = triangles_[triangle];
     return glm::sqrt(squared_distance(at(node), Triangle{at(a), at(b), at(c)}));
 }
 
@@ -142,7 +142,7 @@ void SurfaceImage::find_owner() {
 /// Gives p from one full triangle to its neighbour across an edge, whose image then passes p on the other side.
 bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
     FullEdge& edge = edges_[index];
-    const Word before = edge.word;
+    before_.assign(edge.word.begin(), edge.word.end());
     if (!send_round(edge, edge.left / 3 != from)) return false;
     std::erase(owned_[from], p_);
     owned_[to].push_back(p_);
@@ -152,7 +152,7 @@ bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
         touch(index);
         return true;
     }
-    edge.word = before;
+    edge.word.assign(before_.begin(), before_.end());
     std::erase(owned_[to], p_);
     owned_[from].push_back(p_);
     return false;
@@ -173,37 +173,34 @@ bool SurfaceImage::send_round(FullEdge& edge, bool is_ccw) {
         if (is_counter) break;
     }
     if (sector == kNone) return false;
-    Word word(edge.word.begin(), edge.word.begin() + static_cast<std::ptrdiff_t>(place));
-    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, word); };
+    scratch_.assign(edge.word.begin(), edge.word.begin() + static_cast<std::ptrdiff_t>(place));
+    const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
     const auto count = static_cast<uint32_t>(fan_.corners.size());
     const uint32_t next = is_ccw ? (sector + 1) % count : (sector + count - 1) % count;
     if (count > 1) walk_fan(fan_, sector, next, is_ccw, add);
     walk_fan(fan_, next, sector, is_ccw, add);
     for (size_t i = place; i < edge.word.size(); ++i)
         add(edge.word[i]);
-    edge.word = std::move(word);
+    edge.word.assign(scratch_.begin(), scratch_.end());
     return true;
 }
 
-Word SurfaceImage::loop_of(uint32_t triangle) const {
-    Word loop;
+/// Whether a full triangle's image, the loop of its edges' words, can be drawn together.
+bool SurfaceImage::can_fill(uint32_t triangle) {
+    loop_.clear();
     for (CornerId corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
         const FullEdge& edge = edges_[edge_of_[corner]];
         if (edge.left == corner) {
-            loop.insert(loop.end(), edge.word.begin(), edge.word.end());
+            loop_.insert(loop_.end(), edge.word.begin(), edge.word.end());
         } else {
             for (size_t i = edge.word.size(); i-- > 0;)
-                loop.push_back(mesh_.mate(edge.word[i]));
+                loop_.push_back(mesh_.mate(edge.word[i]));
         }
     }
-    return loop;
+    return filling_.is_fillable(mesh_, loop_, owned_[triangle], corner_of_);
 }
 
-bool SurfaceImage::can_fill(uint32_t triangle) const {
-    return is_fillable(mesh_, loop_of(triangle), owned_[triangle], corner_of_);
-}
-
-bool SurfaceImage::is_sound() const {
+bool SurfaceImage::is_sound() {
     for (uint32_t triangle = 0; triangle < owned_.size(); ++triangle) {
         if (!can_fill(triangle)) return false;
     }
@@ -227,12 +224,15 @@ void SurfaceImage::file_crossers() {
     }
 }
 
-/// The distance of a full edge from a coarse one that it crosses. A border edge's image runs along the border, so it
+/// The distance of a full edge from a coarse one that it crosses, or more, up to `unnoticed2`. A border edge's image runs along the border, so it
 /// crosses where both coarse edge and border have their node, on its right.
-double SurfaceImage::crossing_bound(const FullEdge& edge, CornerId corner) const {
-    const glm::dvec3 u = at(edge.u), v = at(edge.v);
-    if (edge.right != kNoCorner)
-        return squared_segment_distance(u, v, at(mesh_.node(corner)), at(mesh_.head(corner)));
+double SurfaceImage::crossing_bound(const FullEdge& edge, CornerId corner, double unnoticed2) const {
+    const glm::dvec3 &u = at(edge.u), &v = at(edge.v);
+    if (edge.right != kNoCorner) {
+        const glm::dvec3 &from = at(mesh_.node(corner)), &to = at(mesh_.head(corner));
+        const double guess2 = squared_distance_of_pair(u, v, from, to);
+        return guess2 <= unnoticed2 ? guess2 : std::min(guess2, squared_segment_distance(u, v, from, to));
+    }
     double most2 = 0.0;
     for (CornerId letter : edge.word) {
         if (canonical(letter) != canonical(corner)) continue;
@@ -254,7 +254,7 @@ double SurfaceImage::star_bound() {
         double most2 = 0.0;
         if (mate != kNoCorner) {
             for (uint32_t index : crossers_[canonical(corner)])
-                most2 = std::max(most2, crossing_bound(edges_[index], corner));
+                most2 = std::max(most2, crossing_bound(edges_[index], corner, most2));
             edge_bound_m_[mate] = glm::sqrt(most2);
         }
         edge_bound_m_[corner] = glm::sqrt(most2);

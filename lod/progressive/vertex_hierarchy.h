@@ -34,6 +34,14 @@ using VertexId = uint32_t;
 /// A corner of a triangle: three times the triangle plus 0, 1 or 2.
 using CornerId = uint32_t;
 
+/// The other two corners of a corner's triangle, counter-clockwise.
+inline CornerId next_corner(CornerId corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+inline CornerId prev_corner(CornerId corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
 /// Geometry is in the mesh frame, metres. Arrays are [nodes] unless said otherwise; what belongs to collapses is
 /// [collapses], node leaf_count + k at k.
 struct VertexHierarchy {

@@ -119,15 +119,18 @@ lod::VertexHierarchy flat_hierarchy(const data::HeightGrid& grid, const lod::Sur
     lock_corners(*manifold, grid, flat);
     lod::DecimateOptions options;
     options.place = lod::CollapsePlace::kEnd;
-    lod::VertexHierarchy hierarchy = lod::decimate(*manifold, options);
-    lod::prove_errors(hierarchy);
+    lod::ErrorProof proof(manifold->positions, manifold->triangles);
+    lod::VertexHierarchy hierarchy =
+        lod::decimate(*manifold, options, [&proof](const lod::CollapseStep& step) { proof.take(step); });
+    hierarchy.error_m = proof.errors_m();
     samples = samples_of(hierarchy.position, flat);
     for (size_t node = 0; node < samples.size(); ++node)
         hierarchy.position[node] = surface.positions[samples[node]];
     const double upright = std::sqrt(1.0 + slope * slope * pressed * pressed) / pressed;
     for (float& error_m : hierarchy.error_m)
         error_m = static_cast<float>(static_cast<double>(error_m) * upright * (1.0 + 0x1p-20));
-    lod::bound_nodes(hierarchy);
+    lod::bound_normals(hierarchy);
+    lod::bound_places(hierarchy);
     return hierarchy;
 }
 

@@ -77,18 +77,29 @@ nlohmann::json operations_of_a_cut(const lod::ProgressiveMesh& mesh) {
     }
     const double s = processor_s() - begin_s;
     // Down to the coarsest and up to the full mesh in the build's order: no search, no refusals.
-    const double sweep_s = processor_s();
-    uint64_t swept = 0;
+    double split_s = 0.0, collapse_s = 0.0;
+    uint64_t splits = 0, collapses = 0;
     lod::MeshCut whole(mesh);
     for (int round = 0; round < 10; ++round) {
-        for (lod::NodeId node = mesh.hierarchy.node_count(); node-- > mesh.leaf_count(); ++swept)
-            if (whole.split_blocker(node) == lod::kNoNode) whole.vsplit(node);
-        for (lod::NodeId node = mesh.leaf_count(); node < mesh.hierarchy.node_count(); ++node, ++swept)
-            if (whole.collapse_blocker(node) == lod::kNoNode) whole.ecol(node);
+        const double splitting_s = processor_s();
+        for (lod::NodeId node = mesh.hierarchy.node_count(); node-- > mesh.leaf_count();) {
+            if (whole.split_blocker(node) != lod::kNoNode) continue;
+            whole.vsplit(node);
+            ++splits;
+        }
+        const double collapsing_s = processor_s();
+        for (lod::NodeId node = mesh.leaf_count(); node < mesh.hierarchy.node_count(); ++node) {
+            if (whole.collapse_blocker(node) != lod::kNoNode) continue;
+            whole.ecol(node);
+            ++collapses;
+        }
+        split_s += collapsing_s - splitting_s;
+        collapse_s += processor_s() - collapsing_s;
     }
     return {{"random_per_s", double(done) / s},
             {"asked_per_s", double(asked) / s},
-            {"sweep_per_s", double(swept) / (processor_s() - sweep_s)}};
+            {"vsplit_per_s", double(splits) / split_s},
+            {"ecol_per_s", double(collapses) / collapse_s}};
 }
 
 struct Orbit {
@@ -132,6 +143,21 @@ nlohmann::json operations_of_a_front(lod::MeshFront& front, const Orbit& orbit) 
     };
     return {{"vsplit_per_s", rate(lod::OperationKind::kVsplit, spent_s[0])},
             {"ecol_per_s", rate(lod::OperationKind::kEcol, spent_s[1])}};
+}
+
+/// OpenMesh's vsplits alone, its legality asked each time: from the coarsest to the full mesh, as its synthesizer has it.
+nlohmann::json operations_of_openmesh(std::span<const std::byte> spm) {
+    double spent_s = 0.0;
+    uint64_t splits = 0;
+    for (int round = 0; round < 5; ++round) {
+        bench::OpenMeshVdpm vdpm;
+        vdpm.read(spm);
+        const double begin_s = processor_s();
+        vdpm.refine_fully();
+        spent_s += processor_s() - begin_s;
+        splits += vdpm.operations();
+    }
+    return {{"vsplit_per_s", double(splits) / spent_s}};
 }
 
 /// OpenMesh beside it, and what it took.
@@ -230,6 +256,7 @@ int main(int argc, char** argv) {
     std::vector<lod::ProgressiveMesh> meshes = meshes_of(*model);
     nlohmann::json report;
     report["cut"] = operations_of_a_cut(largest(meshes));
+    if (spm) report["openmesh_cut"] = operations_of_openmesh(std::as_bytes(std::span(*spm)));
     const lod::ProgressiveMesh& widest = *std::max_element(
         meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return a.radius_m < b.radius_m; });
     Orbit orbit{widest.centre, widest.radius_m, 0.0};

@@ -62,6 +62,16 @@ class OpenMeshVdpm {
             }
         }
     }
+    /// Splits until nothing is left to split, without a look at any view.
+    void refine_fully() {
+        for (front_.begin(); !front_.end();) {
+            const NodeHandle node = front_.node_handle();
+            if (hierarchy_.is_leaf_node(node))
+                front_.next();
+            else
+                split(node);
+        }
+    }
     /// Frees what was collapsed, as its program does after every frame.
     void clean() {
         mesh_.garbage_collection(false, true, true);

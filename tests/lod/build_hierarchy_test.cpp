@@ -108,6 +108,22 @@ TEST(BuildHierarchy, SameInputSameHierarchy) {
     EXPECT_EQ(one.error_m, two.error_m);
 }
 
+TEST(BuildHierarchy, OneThreadAndTwoMakeTheSame) {
+    for (const lod::SurfaceMesh& mesh :
+         {lod_test::waves(40, 40), lod_test::torus(60, 40), lod_test::box(1)}) {
+        MeshReport report;
+        lod::BuildOptions options;
+        const auto one = lod::build_hierarchy(mesh, options, report);
+        options.threads = 2;
+        const auto two = lod::build_hierarchy(mesh, options, report);
+        ASSERT_TRUE(one && two);
+        EXPECT_EQ(one->children, two->children);
+        EXPECT_EQ(one->error_m, two->error_m);
+        EXPECT_EQ(one->radius_m, two->radius_m);
+        EXPECT_EQ(one->cone_cos, two->cone_cos);
+    }
+}
+
 TEST(BuildHierarchy, ScaleDoesNotMatter) {
     for (const float scale : {1e-9f, 1.0f, 1e6f}) {
         SurfaceMesh mesh = lod_test::torus(30, 20);
