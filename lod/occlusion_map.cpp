@@ -12,7 +12,7 @@ namespace lod {
 namespace {
 
 constexpr double kMargin_px = 1.0 / 64.0;
-constexpr double kDepthSlack = 1e-5;  ///< of a depth: positions are rounded when they are drawn
+constexpr double kDepthSlack = 1e-5;   ///< of a depth: positions are rounded when they are drawn
 constexpr double kLeastRows_px = 3.0;  ///< lower solids are left out: they cover no cell
 constexpr uint64_t kAll = ~uint64_t{0};
 
@@ -43,7 +43,8 @@ Outline outline_of(std::span<glm::dvec2> points) {
     });
     Outline out;
     const auto add = [&out](const glm::dvec2& point, size_t kept) {
-        while (out.count >= kept + 2 && turn(out.corners[out.count - 2], out.corners[out.count - 1], point) <= 0.0)
+        while (out.count >= kept + 2 &&
+               turn(out.corners[out.count - 2], out.corners[out.count - 1], point) <= 0.0)
             --out.count;
         out.corners[out.count++] = point;
     };
@@ -157,9 +158,11 @@ void OcclusionMap::add_convex(std::span<const glm::dvec3> corners_eye) {
             const double x = a.x + slope * (y + 0.5 - a.y) - 0.5;
             Span& span = spans_[size_t(y)];
             if (is_right)
-                span.last = std::min(span.last, static_cast<int>(std::floor(std::clamp(x - margin, -1.0, 1e6))));
+                span.last =
+                    std::min(span.last, static_cast<int>(std::floor(std::clamp(x - margin, -1.0, 1e6))));
             else
-                span.first = std::max(span.first, static_cast<int>(std::ceil(std::clamp(x + margin, 0.0, 1e6))));
+                span.first =
+                    std::max(span.first, static_cast<int>(std::ceil(std::clamp(x + margin, 0.0, 1e6))));
         }
     }
     fill(first_row, last_row, static_cast<float>(depth_m * (1.0 + kDepthSlack)));

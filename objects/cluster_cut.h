@@ -17,8 +17,8 @@ struct CutRecord {
     bool is_hidden = false;    ///< from some eye, behind solids of others
     bool is_occluder = false;  ///< its solids hide others
     bool has_event = false;    ///< its presence was looked up in this frame
-    Presence presence;        ///< v_c now
-    double error_px = 0.0;    ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
+    Presence presence;         ///< v_c now
+    double error_px = 0.0;     ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
 
     bool is_drawn() const { return !is_refined && is_seen && presence.share >= 0.5; }
 };

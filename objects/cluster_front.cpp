@@ -121,7 +121,8 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     if (looks_at_all) changes_ = 0;
     uint64_t hidden = 0, seen = 0;
     for (CutRecord& record : cut_) {
-        const bool may_differ = record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden);
+        const bool may_differ =
+            record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden);
         if (looks_at_all || may_differ) evaluate(record);
         hidden += record.is_hidden;
         seen += record.is_seen;

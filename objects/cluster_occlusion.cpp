@@ -13,8 +13,8 @@ constexpr double kLeastOccluder_px = 6.0;  ///< radius of its sphere: smaller on
 }  // namespace
 
 /// The largest in a picture, from near to far.
-void ClusterOcclusion::select(const ClusterTree& tree, const SceneView& sight,
-                              std::span<CutRecord> records, double time_s) {
+void ClusterOcclusion::select(const ClusterTree& tree, const SceneView& sight, std::span<CutRecord> records,
+                              double time_s) {
     chosen_.clear();
     for (CutRecord& record : records) {
         if (!record.is_drawn()) continue;

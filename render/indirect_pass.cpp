@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-
 namespace render {
 
 namespace {
@@ -30,7 +29,9 @@ VertexArray make_vertex_array() {
     glVertexArrayAttribIFormat(id, 2, 2, GL_UNSIGNED_SHORT, offsetof(lod::Vertex, surface));
     glVertexArrayAttribIFormat(id, 3, 4, GL_UNSIGNED_BYTE, offsetof(lod::Vertex, colour));
     for (GLuint row = 0; row < 3; ++row)
-        add_instance_attribute(id, 4 + row, offsetof(lod::Instance, eye_from_model) + row * sizeof(lod::Instance::eye_from_model[0]));
+        add_instance_attribute(
+            id, 4 + row,
+            offsetof(lod::Instance, eye_from_model) + row * sizeof(lod::Instance::eye_from_model[0]));
     add_instance_attribute(id, 7, offsetof(lod::Instance, origin_hi));
     add_instance_attribute(id, 8, offsetof(lod::Instance, origin_lo));
     add_instance_attribute(id, 9, offsetof(lod::Instance, up_eye));

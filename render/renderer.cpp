@@ -26,7 +26,7 @@ struct Renderer::State {
     SurfaceTextures textures;
     Ground ground;
     bool has_textures = false;  ///< others than the plain ones to begin with
-    Fence in_flight;  ///< end of the last draw, while it may still read the buffers
+    Fence in_flight;            ///< end of the last draw, while it may still read the buffers
     DrawStats stats;
     uint32_t allocations_since_draw = 0;
     double drawn_near_m = 0.1;

@@ -39,10 +39,10 @@ struct Atmosphere {
     glm::dvec3 sun_world{0.0, 0.0, 1.0};       ///< towards the sun, unit length
     glm::dvec3 up_world{0.0, 0.0, 1.0};        ///< local vertical at the eye, unit length
     glm::vec3 clear_colour{1.0f, 0.0f, 1.0f};  ///< magenta where nothing is drawn: holes show
-    double visibility_m = 40000.0;             ///< distance at which haze leaves 5 % of the contrast; infinite: none
-    double eye_height_m = 0.0;                 ///< above the ground's datum, thins the haze
-    glm::ivec2 ground_sample{0};               ///< column and row near the eye, where detail is most exact
-    bool draw_sky = true;                      ///< false: `clear_colour` shows wherever no item draws
+    double visibility_m = 40000.0;  ///< distance at which haze leaves 5 % of the contrast; infinite: none
+    double eye_height_m = 0.0;      ///< above the ground's datum, thins the haze
+    glm::ivec2 ground_sample{0};    ///< column and row near the eye, where detail is most exact
+    bool draw_sky = true;           ///< false: `clear_colour` shows wherever no item draws
 };
 
 /// How the fine structure of surfaces lies on the ground; a fixed function of the place, not of the view.

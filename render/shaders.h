@@ -8,8 +8,9 @@ namespace render {
 
 /// What a scene may have; what it has not costs its shaders nothing.
 struct ShaderFeatures {
-    bool has_textures = false;  ///< the ground's colours and the patterns of surfaces; without: white and plain
-    bool has_air = false;       ///< haze and sky
+    bool has_textures =
+        false;             ///< the ground's colours and the patterns of surfaces; without: white and plain
+    bool has_air = false;  ///< haze and sky
 };
 
 /// Compiles and links. Fails with the driver's first complaint, or when the driver lays the frame's block

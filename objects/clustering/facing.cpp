@@ -15,7 +15,7 @@ constexpr double kGapShare = 1e-5;   ///< of the extent: points that near are on
 constexpr double kDentShare = 1e-5;  ///< … a corner may lie so far outside a face
 constexpr size_t kMostFaces = 512;   ///< of a part that is looked at
 constexpr size_t kFewestFaces = 8;   ///< of closed solids in a geometry: with fewer nothing is won
-constexpr size_t kMostSolids = 4;     ///< of a geometry that are kept to hide what is behind them
+constexpr size_t kMostSolids = 4;    ///< of a geometry that are kept to hide what is behind them
 constexpr float kSteepCos = 0.7f;    ///< what looks up or down more than that
 constexpr uint32_t kRest = 0, kUp = 1, kFirstAround = 2, kAround = 16;
 constexpr uint32_t kDown = kFirstAround + kAround, kBins = kDown + 1;
@@ -96,9 +96,8 @@ double width_m(const FaceSoup& soup, const Solid& solid) {
 
 /// The largest ones, the very largest first.
 void keep_largest(const FaceSoup& soup, std::vector<Solid>& solids) {
-    std::stable_sort(solids.begin(), solids.end(), [&soup](const Solid& a, const Solid& b) {
-        return width_m(soup, a) > width_m(soup, b);
-    });
+    std::stable_sort(solids.begin(), solids.end(),
+                     [&soup](const Solid& a, const Solid& b) { return width_m(soup, a) > width_m(soup, b); });
     if (solids.size() > kMostSolids) solids.resize(kMostSolids);
 }
 

@@ -19,7 +19,7 @@ namespace objects {
 struct Facings {
     std::vector<FacingRange> ranges;  ///< in the order of the indices; empty: all is rest
     glm::vec3 centre{0.0f};
-    float radius_m = 0.0f;  ///< of a sphere about the centre that holds all vertices, rounded up
+    float radius_m = 0.0f;      ///< of a sphere about the centre that holds all vertices, rounded up
     std::vector<Solid> solids;  ///< the largest of the closed convex solids, by extent
 };
 

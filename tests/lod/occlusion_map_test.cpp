@@ -89,7 +89,8 @@ TEST(OcclusionMap, WhatIsHiddenHasASolidInFrontOfEveryPixel) {
             if (!map.hides(box.corners())) continue;
             ++hidden;
             for (int k = 0; k < 300; ++k) {
-                const glm::dvec3 within(2.0 * rng.unit() - 1.0, 2.0 * rng.unit() - 1.0, 2.0 * rng.unit() - 1.0);
+                const glm::dvec3 within(2.0 * rng.unit() - 1.0, 2.0 * rng.unit() - 1.0,
+                                        2.0 * rng.unit() - 1.0);
                 const glm::dvec3 point = box.centre + box.axes * (within * box.half);
                 const glm::dvec2 size(view.width_px, view.height_px);
                 const glm::dvec2 pixel =

@@ -171,7 +171,8 @@ TEST(ClusterFront, LooksUpOnlyWhatHasAnEventInBetween) {
     const lod::View view = random_view(rng);
     front.begin_frame({&view, 1}, 50.0);
     converge(front, 0.5);
-    front.begin_frame({&view, 1}, 50.0);  // after so many changes all is looked at once more: what may be hidden now?
+    front.begin_frame({&view, 1},
+                      50.0);  // after so many changes all is looked at once more: what may be hidden now?
     const auto events_between = [&](double from_s, double to_s) {
         uint64_t count = 0;
         for (ClusterId id = 0; id < scene.tree().clusters.size(); ++id) {

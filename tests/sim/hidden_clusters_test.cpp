@@ -54,8 +54,8 @@ render::Renderer make_renderer(const objects::ClusterTree& tree, const lod::View
 }
 
 TEST(HiddenClusters, ADrivePastHousesLooksTheSameAndDrawsAFraction) {
-    const objects::ClusterTree tree = objects::build_cluster_tree(
-        bench::prism_city(kColumns * kColumns, kColumns), {.threads = 2});
+    const objects::ClusterTree tree =
+        objects::build_cluster_tree(bench::prism_city(kColumns * kColumns, kColumns), {.threads = 2});
     lod::View optics;
     optics.width_px = 320;
     optics.height_px = 180;
