@@ -9,19 +9,20 @@
 
 namespace objects {
 
-/// A cluster of the cut, or above it. 56 bytes.
+/// A cluster of the cut, or above it. 40 bytes.
 struct CutRecord {
     ClusterId id = kNoCluster;
-    bool is_refined = false;   ///< its children stand for it
-    bool is_seen = false;      ///< in view of some eye, by its sphere, and not hidden from it
-    bool is_hidden = false;    ///< from some eye, behind solids of others
-    bool is_occluder = false;  ///< its solids hide others
-    bool has_event = false;    ///< its presence was looked up in this frame
-    Presence presence;         ///< v_c now
-    double error_px = 0.0;     ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
+    bool is_refined : 1 = false;   ///< its children stand for it
+    bool is_seen : 1 = false;      ///< in view of some eye, by its sphere, and not hidden from it
+    bool is_hidden : 1 = false;    ///< from some eye, behind solids of others
+    bool is_occluder : 1 = false;  ///< its solids hide others
+    bool has_event : 1 = false;    ///< its presence was looked up in this frame
+    Presence presence;             ///< v_c now
+    double error_px = 0.0;  ///< of this cluster if it were drawn; 0 when nothing of it is there or in view
 
     bool is_drawn() const { return !is_refined && is_seen && presence.share >= 0.5; }
 };
+static_assert(sizeof(CutRecord) == 40);
 
 /// An active cluster's part in a cut's hash, which is the sum: no order shows.
 constexpr uint64_t cluster_hash(ClusterId id) {

@@ -61,8 +61,8 @@ class ClusterFront final : public lod::Front {
     std::string validate() const override;
 
     const ClusterTree& tree() const { return tree_; }
-    /// The clusters that would be drawn now, in view of some eye and half there at least, ascending: what DISPLAY
-    /// makes, for comparison. @param drawn  cleared first
+    /// The clusters that would be drawn now, in view of some eye, not hidden and half there at least, ascending. What
+    /// DISPLAY makes when nothing hides anything. @param drawn  cleared first
     void drawn(std::vector<ClusterId>& drawn) const;
     /// Presences looked up since construction.
     uint64_t presence_lookups() const { return presence_lookups_; }

@@ -7,6 +7,8 @@ namespace objects {
 
 namespace {
 
+static_assert(Solid::kMostCorners <= lod::OcclusionMap::kMostCorners);
+
 constexpr size_t kFewestOccluders = 16, kMostOccluders = 128;
 constexpr double kLeastOccluder_px = 6.0;  ///< radius of its sphere: smaller ones hide little
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,6 +45,14 @@ struct Atmosphere {
     glm::ivec2 ground_sample{0};    ///< column and row near the eye, where detail is most exact
     bool draw_sky = true;           ///< false: `clear_colour` shows wherever no item draws
 };
+
+/// Neither haze nor sky: nothing shows but what is drawn.
+inline Atmosphere vacuum() {
+    Atmosphere air;
+    air.visibility_m = std::numeric_limits<double>::infinity();
+    air.draw_sky = false;
+    return air;
+}
 
 /// How the fine structure of surfaces lies on the ground; a fixed function of the place, not of the view.
 struct SurfaceDetail {

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kLeastCosine = 0.5;     ///< 60 degrees: what faces elsewhere is seen from elsewhere
 constexpr double kOffShare = 1e-5;       ///< of the limit: what lies so near is the face itself …
-constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it
-constexpr double kLongFace = 12.0;       ///< … and what is longer is asked at more points
-constexpr int kPieces = 8;               ///< of each of its sides
+constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it …
 constexpr double kOutShare = 2.0;        ///< … and what is farther away is something else
+constexpr double kLongFace = 12.0;       ///< limits: a longer face is asked at more points …
+constexpr int kPieces = 8;               ///< … as many a side
 
 /// Twice the area, along the normal.
 glm::dvec3 area_vector(const lod::Triangle& t) {

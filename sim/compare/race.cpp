@@ -1,7 +1,6 @@
 #include "sim/compare/race.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "sim/progress.h"
 
@@ -35,10 +34,8 @@ bool has_moved(const lod::PoolRegion& a, const lod::PoolRegion& b) {
 
 /// No sky, no colours: only the ground's triangles cost.
 render::Atmosphere clear_air(const lod::View& view) {
-    render::Atmosphere air;
+    render::Atmosphere air = render::vacuum();
     air.up_world = air.sun_world = glm::transpose(view.eye_from_world)[1];
-    air.draw_sky = false;
-    air.visibility_m = std::numeric_limits<double>::infinity();
     return air;
 }
 

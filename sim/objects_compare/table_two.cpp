@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "lod/scheduler.h"
@@ -39,11 +38,9 @@ lod::View overview(const objects::Cluster& root, const TableTwoOptions& options,
 
 /// No sky: only the scene's triangles cost.
 render::Atmosphere clear_air() {
-    render::Atmosphere air;
+    render::Atmosphere air = render::vacuum();
     air.sun_world = glm::normalize(glm::dvec3(-0.3, -0.5, 0.8));
     air.clear_colour = {0.5f, 0.6f, 0.8f};
-    air.visibility_m = std::numeric_limits<double>::infinity();
-    air.draw_sky = false;
     return air;
 }
 

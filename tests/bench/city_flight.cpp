@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <limits>
 #include <vector>
 
 #include "lod/scheduler.h"
@@ -77,8 +76,6 @@ class City {
         : front_(std::move(tree), {}), renderer_(std::move(renderer)) {
         budget_.tolerance_px = tolerance_px;
         front_.place(front_.pool_need());
-        air_.draw_sky = false;
-        air_.visibility_m = std::numeric_limits<double>::infinity();
         air_.clear_colour = {0.5f, 0.6f, 0.8f};
         air_.sun_world = glm::normalize(glm::dvec3(0.5, 0.3, 0.81));
     }
@@ -121,7 +118,7 @@ class City {
     render::Renderer renderer_;
     lod::Budget budget_;
     lod::DrawList list_;
-    render::Atmosphere air_;
+    render::Atmosphere air_ = render::vacuum();
 };
 
 void print(const Way& way, const Figures& f) {

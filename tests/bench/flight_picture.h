@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "lod/front.h"
 #include "render/renderer.h"
@@ -36,10 +35,7 @@ class FlightPicture {
     void draw(lod::Front& front, const lod::View& view) {
         list_.clear();
         front.emit(view, list_);
-        render::Atmosphere vacuum;
-        vacuum.draw_sky = false;
-        vacuum.visibility_m = std::numeric_limits<double>::infinity();
-        renderer_.draw(view, list_, vacuum);
+        renderer_.draw(view, list_, render::vacuum());
         renderer_.finish();
     }
 

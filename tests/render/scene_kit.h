@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,8 @@
 #include "render/renderer.h"
 
 namespace render_test {
+
+using render::vacuum;
 
 /// Geometry and the list that draws it; `list` refers to `vertices` and `indices`.
 struct Scene {
@@ -68,14 +69,6 @@ inline void prepare(const lod::View& view, Scene& scene) {
         lod::make_world_instance(view.eye_world, view.eye_from_world, lod::Module::kTerrain);
     scene.list.vertex_writes = {{0, scene.vertices}};
     scene.list.index_writes = {{0, scene.indices}};
-}
-
-/// Clear air, no sky: what is drawn is what was asked for.
-inline render::Atmosphere vacuum() {
-    render::Atmosphere atmosphere;
-    atmosphere.visibility_m = std::numeric_limits<double>::infinity();
-    atmosphere.draw_sky = false;
-    return atmosphere;
 }
 
 inline void draw(const lod::View& view, const render::Atmosphere& atmosphere, Scene& scene,

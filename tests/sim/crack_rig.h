@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "data/ground_height.h"
 #include "lod/base/rng.h"
@@ -37,10 +36,7 @@ class CrackRig {
 
     /// @param grid, front  must outlive the rig
     CrackRig(const data::HeightGrid& grid, lod::Front& front, render::Renderer renderer)
-        : grid_(grid), front_(front), renderer_(std::move(renderer)) {
-        air_.visibility_m = std::numeric_limits<double>::infinity();
-        air_.draw_sky = false;
-    }
+        : grid_(grid), front_(front), renderer_(std::move(renderer)) {}
 
     static lod::Result<render::Renderer> make_renderer() {
         render::RendererOptions options;
@@ -192,7 +188,7 @@ class CrackRig {
     const data::HeightGrid& grid_;
     lod::Front& front_;
     render::Renderer renderer_;
-    render::Atmosphere air_;
+    render::Atmosphere air_ = render::vacuum();
     lod::PoolRegion region_;
     terrain_test::PoolTwin pool_;
     double time_s_ = 0.0;
