@@ -69,6 +69,10 @@ class Front {
     /// Does nothing (steps == 0) when coarsen_error_px() > limit_px.
     virtual Step coarsen(double limit_px) = 0;
 
+    /// Looks again at what was put off while the cut changed. Asked when nothing else is left to do; emit() and error_px()
+    /// do it by themselves. @returns whether errors may have risen, so that there may be something to do again
+    virtual bool settle() { return false; }
+
     /// Triangles of the cut, in view or not.
     virtual uint64_t triangles() const = 0;
 

@@ -76,17 +76,25 @@ class Bargain {
     double paid_px_ = 0.0;
 };
 
+bool settle_all(std::span<Front* const> fronts) {
+    bool has_changed = false;
+    for (Front* front : fronts)
+        has_changed = front->settle() || has_changed;
+    return has_changed;
+}
+
 }  // namespace
 
 ScheduleResult schedule(std::span<Front* const> fronts, const Budget& budget, const Deadline& deadline) {
     ScheduleResult result;
     Bargain bargain(fronts, budget);
     while (!deadline(result.operations)) {
-        if (!bargain.step()) {
+        if (bargain.step()) {
+            ++result.operations;
+        } else if (!settle_all(fronts)) {
             result.converged = true;
             break;
         }
-        ++result.operations;
     }
     return result;
 }

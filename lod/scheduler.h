@@ -4,7 +4,8 @@
 //         too many triangles        -> coarsen where it costs least
 //         worst error > tolerance   -> refine there; near the triangle limit first make room, but only when the
 //                                      swap gains more than the hysteresis over all that was given up so far
-//         else                      -> release what stays below tolerance * coarsen_ratio, until nothing is left
+//         else                      -> release what stays below tolerance * coarsen_ratio, until nothing is left;
+//                                      then fronts look again at what they put off, which may give more to do
 //
 // ROAM's dual-queue loop (Duchaineau 1997) over several hierarchies in one currency, pixels; Funkhouser and
 // Sequin (1993) for the idea of a frame budget spent where it buys most.

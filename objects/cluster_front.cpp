@@ -91,7 +91,6 @@ void ClusterFront::remove(ClusterId id) {
 void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) {
     CHECK(!views.empty());
     jump_px_ = 0.0;
-    rest_px_ = std::max(worst_error_px(), 0.98 * rest_px_);
     const double time = clamped_time(tree_, time_s);
     const bool is_new_time = time != time_s_;
     const bool is_new_view = !are_same(views, views_);
@@ -141,8 +140,8 @@ void ClusterFront::cover() {
 }
 
 /// Looks again at what was hidden when something that hid it is no longer drawn.
-void ClusterFront::settle_hidden() {
-    if (!is_uncovered_) return;
+bool ClusterFront::settle() {
+    if (!is_uncovered_) return false;
     cover();
     to_open_.clear();
     for (CutRecord& record : cut_) {
@@ -153,21 +152,16 @@ void ClusterFront::settle_hidden() {
     }
     for (ClusterId id : to_open_)
         open(id);
+    return true;
 }
 
-double ClusterFront::worst_error_px() {
+double ClusterFront::refine_error_px() {
     for (; !worst_.is_empty(); worst_.pop()) {
         const ClusterId id = worst_.top();
         if (cut_.holds(id) && !cut_.at(id).is_refined && cut_.at(id).error_px == worst_.top_error_px())
             return worst_.top_error_px();
     }
     return 0.0;
-}
-
-double ClusterFront::refine_error_px() {
-    constexpr double kNearRest = 1.02;  // settled here, what comes to light can still be refined
-    if (is_uncovered_ && worst_error_px() <= kNearRest * rest_px_) settle_hidden();
-    return worst_error_px();
 }
 
 double ClusterFront::coarsen_error_px() {
@@ -180,6 +174,7 @@ double ClusterFront::coarsen_error_px() {
 }
 
 double ClusterFront::error_px() {
+    settle();
     return refine_error_px();
 }
 

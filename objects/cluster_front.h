@@ -16,8 +16,8 @@
 // records whatever the scene holds; when neither eye nor anything else has moved, not at all.
 //
 // What solids hide (cluster_occlusion.h) is neither refined nor drawn. Solids of what was drawn in the frame before hide it;
-// where one of these is refined away in this frame, all that was hidden is looked at again once errors have come down to
-// where they stood in the frame before, and before anything is drawn.
+// where one of these is refined away in this frame, all that was hidden is looked at again once nothing else is left to
+// do, and before anything is drawn.
 //
 // Source: Semenov, Shutkin, Zolotov et al. (2020), section 2 and appendix 1. Differs from it in: a state between
 // frames, a budget, moving clusters.
@@ -49,6 +49,7 @@ class ClusterFront final : public lod::Front {
     double coarsen_error_px() override;
     lod::Step refine() override;
     lod::Step coarsen(double limit_px) override;
+    bool settle() override;
     uint64_t triangles() const override { return triangles_; }
     double error_px() override;
     double jump_px() const override { return jump_px_; }
@@ -82,8 +83,6 @@ class ClusterFront final : public lod::Front {
     uint32_t open(ClusterId id);
     uint32_t take_back(ClusterId id);
     void cover();
-    void settle_hidden();
-    double worst_error_px();
     void emit_writes(lod::DrawList& out);
 
     ClusterTree tree_;
@@ -92,7 +91,6 @@ class ClusterFront final : public lod::Front {
     ClusterCut cut_;
     ClusterOcclusion occlusion_;
     bool is_uncovered_ = false;  ///< some occluder is no longer drawn
-    double rest_px_ = 0.0;       ///< error that frames before were left with
     uint64_t changes_ = 0;       ///< clusters opened and taken back since all of the cut was looked at
     CutQueue worst_{true}, cheapest_{false};
 

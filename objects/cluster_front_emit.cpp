@@ -25,7 +25,7 @@ void ClusterFront::emit_writes(lod::DrawList& out) {
 }
 
 void ClusterFront::emit(const lod::View& view, lod::DrawList& out) {
-    settle_hidden();
+    settle();
     emit_writes(out);
     ClusterItems items(tree_, place_, region_, view, time_s_);
     const SceneView sight(view, place_);
