@@ -1,7 +1,8 @@
 // A static mesh of so many triangles, out of a hierarchy built once and by meshoptimizer: time, what is told, what is true.
 //
-// Usage: mesh_simplify MODEL TRIANGLES [REPEATS]
-// The model's largest node. Prints one line of JSON; times are the processor's, the least of all repeats.
+// Usage: mesh_simplify MODEL TRIANGLES [REPEATS [OTHER]]
+// The model's largest node. OTHER is what another program has made of it, in the same frame. Prints one line of JSON;
+// times are the processor's, the least of all repeats.
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -112,20 +113,36 @@ nlohmann::json by_meshoptimizer(const Task& task) {
     return report(task, found, spent_s, double(told * extent_m));
 }
 
+const data::MeshNode& largest_node(const data::PolygonMesh& mesh) {
+    return *std::max_element(mesh.nodes.begin(), mesh.nodes.end(), [](const auto& a, const auto& b) {
+        return a.triangles.size() < b.triangles.size();
+    });
+}
+
+nlohmann::json by_another(const Task& task, const char* path) {
+    const auto model = data::read_polygon_mesh(path);
+    if (!model) return {{"failed", model.message()}};
+    const data::MeshNode& node = largest_node(*model);
+    nlohmann::json json =
+        report(task, {{node.positions.begin(), node.positions.end()}, node.triangles}, 0.0, 0.0);
+    json.erase("spent_s");
+    json.erase("told_m");
+    return json;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) return std::fprintf(stderr, "usage: mesh_simplify MODEL TRIANGLES [REPEATS]\n"), 2;
+    if (argc < 3) return std::fprintf(stderr, "usage: mesh_simplify MODEL TRIANGLES [REPEATS [OTHER]]\n"), 2;
     const auto model = data::read_polygon_mesh(argv[1]);
     if (!model) return std::fprintf(stderr, "%s\n", model.message().c_str()), 1;
-    const data::MeshNode& largest = *std::max_element(
-        model->nodes.begin(), model->nodes.end(),
-        [](const auto& a, const auto& b) { return a.triangles.size() < b.triangles.size(); });
+    const data::MeshNode& largest = largest_node(*model);
     const Task task =
         make_task(largest, static_cast<size_t>(std::atoll(argv[2])), argc > 3 ? std::atoi(argv[3]) : 5);
-    const nlohmann::json json = {{"full_triangles", largest.triangles.size()},
-                                 {"harrier", by_hierarchy(task)},
-                                 {"meshoptimizer", by_meshoptimizer(task)}};
+    nlohmann::json json = {{"full_triangles", largest.triangles.size()},
+                           {"harrier", by_hierarchy(task)},
+                           {"meshoptimizer", by_meshoptimizer(task)}};
+    if (argc > 4) json["other"] = by_another(task, argv[4]);
     std::printf("%s\n", json.dump().c_str());
     return 0;
 }
