@@ -28,8 +28,8 @@ class OcclusionMap {
     /// Empties the map for a picture. Cost: 16 bytes for each 64 pixels.
     void begin(const ViewMetric& metric, int width_px, int height_px);
 
-    /// Adds the convex hull of 3 to kMostCorners points. Nothing when one of them is nearer than the near plane. Most
-    /// is hidden in the end when what is near comes first.
+    /// Adds the convex hull of 3 to kMostCorners points. Nothing when one of them is nearer than the near plane, or when
+    /// it is less than 3 px high. Most is hidden in the end when what is near comes first.
     /// @param corners_eye  eye frame (-z ahead), metres
     /// Cost: its rows, and the cells they meet.
     void add_convex(std::span<const glm::dvec3> corners_eye);
