@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 
 namespace objects {
 
@@ -35,6 +37,10 @@ struct Mixture {
         light += by * more;
         weight += by;
     }
+    void add(const Mixture& other) {
+        light += other.light;
+        weight += other.weight;
+    }
 };
 
 /// Of one face of the result.
@@ -42,6 +48,12 @@ struct Mixtures {
     Mixture seen;         ///< by who looks at its front
     Mixture seen_behind;  ///< … at its back
     Mixture all;          ///< hidden or not, nearer to it than to other faces
+
+    void add(const Mixtures& other) {
+        seen.add(other.seen);
+        seen_behind.add(other.seen_behind);
+        all.add(other.all);
+    }
 };
 
 /// A point of a source face, and the face of the result that is nearest.
@@ -78,6 +90,29 @@ void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, 
             add(i + 1.0 / 3.0, row + 1.0 / 3.0);
             if (i + row + 1 < kPieces) add(i + 2.0 / 3.0, row + 2.0 / 3.0);
         }
+    }
+}
+
+/// Two halves of one flat four-sided face get one colour: those whose longest edge is one and the same, the diagonal.
+void join_halves(const FaceSoup& soup, std::vector<Mixtures>& mixtures) {
+    constexpr double kFlatCosine = 0.999;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> by_diagonal;
+    for (uint32_t face = 0; face < soup.faces.size(); ++face) {
+        const auto& corners = soup.faces[face];
+        std::pair<uint32_t, uint32_t> longest;
+        double longest_m = 0.0;
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = corners[k], b = corners[(k + 1) % 3];
+            const double length_m = glm::length(soup.points[b] - soup.points[a]);
+            if (length_m > longest_m) longest_m = length_m, longest = std::minmax(a, b);
+        }
+        const auto [half, is_first] = by_diagonal.emplace(longest, face);
+        if (is_first || soup.colours[face].w < 255 || soup.colours[half->second].w < 255) continue;
+        const glm::dvec3 one = area_vector(soup.view().triangle(face)),
+                         other = area_vector(soup.view().triangle(half->second));
+        if (!(glm::dot(one, other) > kFlatCosine * glm::length(one) * glm::length(other))) continue;
+        mixtures[face].add(mixtures[half->second]);
+        mixtures[half->second] = mixtures[face];
     }
 }
 
@@ -127,6 +162,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
                 add(second.triangle, area, light, &Mixtures::seen, &Mixtures::seen_behind);
         }
     }
+    join_halves(result, mixtures);
     for (size_t face = 0; face < result.faces.size(); ++face) {
         const auto& [seen, seen_behind, all] = mixtures[face];
         const Mixture& mixture = seen.weight > 0.0 ? seen : seen_behind.weight > 0.0 ? seen_behind : all;

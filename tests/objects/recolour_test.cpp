@@ -34,6 +34,19 @@ TEST(Recolour, WallsDarkenByTheWindowsTheyStandFor) {
     }
 }
 
+/// A wall that is dark below has one colour, not one above its diagonal and one below.
+TEST(Recolour, HalvesOfAWallAreAlike) {
+    FaceSoup house, wall;
+    add_rectangle({0.0, 0.0}, {10.0, 4.0}, 0.0, {40, 40, 80, 255}, house);
+    add_rectangle({0.0, 4.0}, {10.0, 12.0}, 0.0, {200, 200, 200, 255}, house);
+    add_rectangle({0.0, 0.0}, {10.0, 12.0}, 0.05, {200, 200, 200, 255}, wall);
+    add_rectangle({10.0, 0.0}, {20.0, 12.0}, 0.05, {9, 9, 9, 255}, wall);  // its neighbour keeps its own
+    recolour(house, lod::TriangleTree(house.view()), nearest_faces(house, wall, 0.2), 0.2, wall);
+    EXPECT_EQ(wall.colours[0], wall.colours[1]);
+    EXPECT_NEAR(wall.colours[0].x, 165, 8);  // sqrt((2 * 200² + 40²) / 3)
+    EXPECT_EQ(wall.colours[2], glm::u8vec4(9, 9, 9, 255));
+}
+
 /// A pane on a wall, a roof on a house: what they hide is not seen.
 TEST(Recolour, WhatIsHiddenDoesNotCount) {
     FaceSoup layers;
