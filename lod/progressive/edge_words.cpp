@@ -6,7 +6,7 @@ namespace lod {
 namespace {
 
 /// Cancels inverse pairs, also across the ends.
-void reduce_loop(const CoarseMesh& mesh, Word& loop) {
+void reduce_loop(const CoarseMesh& mesh, Loop& loop) {
     size_t end = 0;
     for (CornerId letter : loop) {
         if (end > 0 && loop[end - 1] == mesh.mate(letter)) {
@@ -32,7 +32,7 @@ NodeId pivot(const CoarseMesh& mesh, CornerId letter, bool is_ccw) {
 }  // namespace
 
 /// Sends the longest run round `node` the other way, when that is shorter. Leaves the run at the loop's front.
-bool Filling::shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop) {
+bool Filling::shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Loop& loop) {
     mesh.fan_at(corner, fan_);
     const size_t around = fan_.corners.size();
     if (!fan_.is_closed) return false;
@@ -64,7 +64,7 @@ bool Filling::shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner
     return false;
 }
 
-bool Filling::is_fillable(const CoarseMesh& mesh, Word& loop, std::span<const NodeId> pierced,
+bool Filling::is_fillable(const CoarseMesh& mesh, Loop& loop, std::span<const NodeId> pierced,
                           std::span<const CornerId> corner_of_node) {
     reduce_loop(mesh, loop);
     while (!loop.empty()) {

@@ -8,11 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "lod/base/short_list.h"
 #include "lod/progressive/coarse_mesh.h"
 
 namespace lod {
 
-using Word = std::vector<CornerId>;
+using Word = ShortList<CornerId, 10>;
+/// Words one after the other, of a closed path.
+using Loop = std::vector<CornerId>;
 
 /// Appends a letter, or takes the last one away when it is the inverse and both are of an edge at `node`.
 inline void append_reduced(const CoarseMesh& mesh, NodeId node, CornerId letter, Word& word) {
@@ -42,14 +45,14 @@ class Filling {
     /// Greedy: a run round a pierced node that is longer than half of its fan goes the other way. May fail to see that
     /// it can, never the reverse.
     /// @param loop  the path; used up
-    bool is_fillable(const CoarseMesh& mesh, Word& loop, std::span<const NodeId> pierced,
+    bool is_fillable(const CoarseMesh& mesh, Loop& loop, std::span<const NodeId> pierced,
                      std::span<const CornerId> corner_of_node);
 
   private:
-    bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Word& loop);
+    bool shorten_round(const CoarseMesh& mesh, NodeId node, CornerId corner, Loop& loop);
 
     Fan fan_;
-    Word other_;
+    Loop other_;
 };
 
 }  // namespace lod

@@ -78,10 +78,11 @@ void SurfaceImage::touch(uint32_t edge) {
     if (is_touched_[edge]) return;
     is_touched_[edge] = 1;
     touched_.push_back(edge);
+    __builtin_prefetch(&edges_[edge], 1);  // rewritten in a moment
 }
 
 void SurfaceImage::touch_crossers(CornerId corner) {
-    std::vector<uint32_t>& crossers = crossers_[canonical(corner)];
+    auto& crossers = crossers_[canonical(corner)];
     for (uint32_t edge : crossers)
         touch(edge);
     crossers.clear();
@@ -121,17 +122,18 @@ void SurfaceImage::plan_removed(uint32_t triangle) {
     r.side_o = is_outward ? o : prev_corner(o);
     r.beyond_c = mesh_.mate(r.side_c);
     r.beyond_o = mesh_.mate(r.side_o);
-    const auto rule = [this](CornerId letter, Word word) {
+    const auto rule = [this](CornerId letter, CornerId instead) {
         if (letter == kNoCorner) return;
         rule_of_[letter] = static_cast<uint32_t>(rules_.size());
-        rules_.push_back(std::move(word));
         ruled_.push_back(letter);
+        Word& word = rules_.emplace_back();
+        if (instead != kNoCorner) word.push_back(instead);
     };
     const bool is_inside = r.beyond_c != kNoCorner && r.beyond_o != kNoCorner;
-    rule(r.side_c, is_inside ? Word{r.beyond_o} : Word{});
-    rule(r.side_o, {});
-    if (r.beyond_o == kNoCorner) rule(r.beyond_c, {});
-    rule(r.beyond_o, {});
+    rule(r.side_c, is_inside ? r.beyond_o : kNoCorner);
+    rule(r.side_o, kNoCorner);
+    if (r.beyond_o == kNoCorner) rule(r.beyond_c, kNoCorner);
+    rule(r.beyond_o, kNoCorner);
     removed_.push_back(r);
 }
 
@@ -153,7 +155,7 @@ void SurfaceImage::plan_contracted() {
     for (size_t i = 0; i < 2; ++i) {
         rule_of_[removed_[i].contracted] = static_cast<uint32_t>(rules_.size());
         ruled_.push_back(removed_[i].contracted);
-        rules_.push_back(i == 0 ? word : back);
+        rules_.push_back(std::move(i == 0 ? word : back));
     }
 }
 
@@ -220,6 +222,9 @@ void SurfaceImage::move_members() {
         const uint32_t triangle = fan_.corners[member.to] / 3;
         triangle_of_[member.vertex] = triangle;
         on_[triangle].push_back(member.vertex);
+        if (member.from == member.to) continue;
+        for (uint32_t j = incident_begin_[member.vertex]; j < incident_begin_[member.vertex + 1]; ++j)
+            __builtin_prefetch(&edges_[incident_[j]], 1);  // looked at when all are moved
     }
 }
 
@@ -329,11 +334,11 @@ void SurfaceImage::rewrite(uint32_t index) {
     if (v != nullptr) walk_fan(fan_, v->from, v->to, v->is_ccw, add);
     edge.word.assign(scratch_.begin(), scratch_.end());
     suspect(edge);
-    if (edge.right == kNoCorner) rewrite_passes(edge, u, v);
+    if (edge.right == kNoCorner) rewrite_passes(index, u, v);
 }
 
-void SurfaceImage::rewrite_passes(FullEdge& edge, const Member* u, const Member* v) {
-    std::vector<Pass> passes;
+void SurfaceImage::rewrite_passes(uint32_t edge, const Member* u, const Member* v) {
+    Passes &old = passes_[edge], passes;
     const auto add = [&](const Pass& pass) {
         const bool is_undone =
             pass.node == p_ && !passes.empty() && passes.back() == Pass{p_, !pass.is_forward};
@@ -343,14 +348,14 @@ void SurfaceImage::rewrite_passes(FullEdge& edge, const Member* u, const Member*
             passes.push_back(pass);
     };
     if (u != nullptr && u->passes_p) add({p_, !u->is_forward});
-    for (const Pass& pass : edge.passes) {
+    for (const Pass& pass : old) {
         if (pass.node == centre_)
             add({p_, pass.is_forward});
         else if (pass.node != other_)
             add(pass);
     }
     if (v != nullptr && v->passes_p) add({p_, v->is_forward});
-    edge.passes = std::move(passes);
+    old = std::move(passes);
 }
 
 }  // namespace lod

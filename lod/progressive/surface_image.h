@@ -27,6 +27,8 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "lod/progressive/coarse_mesh.h"
@@ -62,12 +64,12 @@ class SurfaceImage {
         bool operator==(const Pass&) const = default;
     };
     /// A full edge; u to v has its left triangle on the left. Border edges have no other.
-    struct FullEdge {
+    struct alignas(64) FullEdge {
         uint32_t u = 0, v = 0;
         CornerId left = 0, right = kNoCorner;  ///< of the full mesh; no right: a border
         Word word;                             ///< crossed edges, from u to v
-        std::vector<Pass> passes;              ///< of border edges: nodes passed
     };
+    using Passes = std::vector<Pass>;
     /// A vertex in the star that is being replaced.
     struct Member {
         uint32_t vertex = 0;
@@ -112,7 +114,7 @@ class SurfaceImage {
     void untwist();
     int excess_turns(uint32_t vertex, bool is_ccw) const;
     void turn_vertex(uint32_t vertex, bool is_ccw);
-    void rewrite_passes(FullEdge& edge, const Member* u, const Member* v);
+    void rewrite_passes(uint32_t edge, const Member* u, const Member* v);
     void find_owner();
     bool find_way(uint32_t from, double apart);
     bool flip(uint32_t edge, uint32_t from, uint32_t to);
@@ -135,14 +137,15 @@ class SurfaceImage {
     std::vector<uint32_t> edge_of_;          // [corners of the full mesh]
     std::vector<uint32_t> incident_begin_;   // [leaves + 1] into incident_
     std::vector<uint32_t> incident_;         // full edges at a vertex
-    std::vector<std::vector<uint32_t>> on_;  // [triangles] full vertices that lie there
+    std::vector<ShortList<uint32_t, 6>> on_;  // [triangles] full vertices that lie there
     std::vector<uint32_t> triangle_of_;      // [leaves] where the full vertex lies
     std::vector<CornerId> border_of_;        // [leaves] its border half-edge; kNoCorner: inside
-    std::vector<std::vector<uint32_t>>
+    std::vector<ShortList<uint32_t, 6>>
         crossers_;  // [corners, the canonical] full edges that cross, perhaps twice
+    std::unordered_map<uint32_t, Passes> passes_;  // of border edges: nodes passed
     std::vector<std::vector<uint32_t>> passers_;  // [nodes] full border edges that pass
     std::vector<uint32_t> owner_;                 // [nodes] full triangle; kNone at borders
-    std::vector<std::vector<NodeId>> owned_;      // [triangles of the full mesh]
+    std::vector<ShortList<NodeId, 2>> owned_;      // [triangles of the full mesh]
     std::vector<CornerId> corner_of_;             // [nodes] one of its corners
     std::vector<double> edge_bound_m_;            // [corners] crossings of that edge
     std::vector<double> node_bound_m_;            // [nodes] owner or passers
@@ -161,9 +164,10 @@ class SurfaceImage {
         double apart = 0.0;
     };
     std::vector<Step> way_;  // full triangles looked at on the way to a nearer owner
-    Word scratch_, before_, loop_;
+    Word scratch_, before_;
+    Loop loop_;
     Filling filling_;
-    std::vector<uint32_t> suspects_;   // vertices with an edge that goes round p at once
+    std::vector<std::pair<uint32_t, bool>> suspects_;  // vertices with an edge that goes round p, is_ccw
     std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
     std::vector<uint8_t> is_touched_;  // [edges]
     std::vector<uint32_t> sector_of_;  // [triangles] in the new fan

@@ -67,10 +67,10 @@ void SurfaceImage::begin_edges() {
         const CornerId mate = mesh_.mate(corner);
         if (mate < corner) continue;
         const auto edge = static_cast<uint32_t>(edges_.size());
-        edges_.push_back({mesh_.node(corner), mesh_.head(corner), corner, mate, {}, {}});
+        edges_.push_back({mesh_.node(corner), mesh_.head(corner), corner, mate, {}});
         edge_of_[corner] = edge;
         if (mate == kNoCorner) {
-            edges_[edge].passes.push_back({mesh_.head(corner), true});
+            passes_[edge].push_back({mesh_.head(corner), true});
             passers_[mesh_.head(corner)].push_back(edge);
         } else {
             edge_of_[mate] = edge;

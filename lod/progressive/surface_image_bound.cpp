@@ -50,22 +50,24 @@ void SurfaceImage::turn_vertex(uint32_t vertex, bool is_ccw) {
     }
 }
 
-/// Remembers the ends of an edge from which it goes more than half round p: only with such an edge can a turn pay.
+/// Remembers the ends of an edge from which it goes more than half round p, and which way: only with such an edge can a
+/// turn pay.
 void SurfaceImage::suspect(const FullEdge& edge) {
     const size_t half = fan_.corners.size() / 2, count = edge.word.size();
     if (count <= half) return;
-    const auto is_long = [&](bool is_tail) {
+    const auto look_from = [&](uint32_t vertex, bool is_tail) {
+        if (member_of_[vertex] == kNone) return;
         const auto letter = [&](size_t i) { return edge.word[is_tail ? i : count - 1 - i]; };
         const bool is_out = mesh_.node(letter(0)) == p_;
-        if (!is_out && mesh_.head(letter(0)) != p_) return false;
+        if (!is_out && mesh_.head(letter(0)) != p_) return;
         size_t run = 1;
         while (run <= half && run < count &&
                (is_out ? mesh_.node(letter(run)) : mesh_.head(letter(run))) == p_)
             ++run;
-        return run > half;
+        if (run > half) suspects_.push_back({vertex, is_out != is_tail});
     };
-    if (member_of_[edge.u] != kNone && is_long(true)) suspects_.push_back(edge.u);
-    if (member_of_[edge.v] != kNone && is_long(false)) suspects_.push_back(edge.v);
+    look_from(edge.u, true);
+    look_from(edge.v, false);
 }
 
 /// Vertices that went round p the long way, as their edges' words tell, go back.
@@ -77,13 +79,10 @@ void SurfaceImage::untwist() {
         suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
         bool is_changed = false;
         for (size_t i = 0, count = suspects_.size(); i < count; ++i) {
-            const uint32_t vertex = suspects_[i];
-            if (border_of_[vertex] != kNoCorner) continue;
-            for (const bool is_ccw : {true, false}) {
-                if (excess_turns(vertex, is_ccw) >= 0) continue;
-                turn_vertex(vertex, is_ccw);
-                is_changed = true;
-            }
+            const auto [vertex, is_ccw] = suspects_[i];
+            if (border_of_[vertex] != kNoCorner || excess_turns(vertex, is_ccw) >= 0) continue;
+            turn_vertex(vertex, is_ccw);
+            is_changed = true;
         }
         if (!is_changed) return;
     }
@@ -120,7 +119,7 @@ bool SurfaceImage::find_way(uint32_t from, double apart) {
 /// p takes over the centre's owner, then goes to nearer ones.
 void SurfaceImage::find_owner() {
     for (NodeId node : {centre_, other_}) {
-        if (owner_[node] != kNone) std::erase(owned_[owner_[node]], node);
+        if (owner_[node] != kNone) owned_[owner_[node]].erase(node);
     }
     if (owner_[centre_] == kNone) return;
     owner_[p_] = owner_[centre_];
@@ -144,7 +143,7 @@ bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
     FullEdge& edge = edges_[index];
     before_.assign(edge.word.begin(), edge.word.end());
     if (!send_round(edge, edge.left / 3 != from)) return false;
-    std::erase(owned_[from], p_);
+    owned_[from].erase(p_);
     owned_[to].push_back(p_);
     if (can_fill(from) && can_fill(to)) {
         owner_[p_] = to;
@@ -153,7 +152,7 @@ bool SurfaceImage::flip(uint32_t index, uint32_t from, uint32_t to) {
         return true;
     }
     edge.word.assign(before_.begin(), before_.end());
-    std::erase(owned_[to], p_);
+    owned_[to].erase(p_);
     owned_[from].push_back(p_);
     return false;
 }
@@ -173,7 +172,7 @@ bool SurfaceImage::send_round(FullEdge& edge, bool is_ccw) {
         if (is_counter) break;
     }
     if (sector == kNone) return false;
-    scratch_.assign(edge.word.begin(), edge.word.begin() + static_cast<std::ptrdiff_t>(place));
+    scratch_.assign(edge.word.begin(), edge.word.begin() + place);
     const auto add = [&](CornerId letter) { append_reduced(mesh_, p_, letter, scratch_); };
     const auto count = static_cast<uint32_t>(fan_.corners.size());
     const uint32_t next = is_ccw ? (sector + 1) % count : (sector + count - 1) % count;
@@ -197,7 +196,8 @@ bool SurfaceImage::can_fill(uint32_t triangle) {
                 loop_.push_back(mesh_.mate(edge.word[i]));
         }
     }
-    return filling_.is_fillable(mesh_, loop_, owned_[triangle], corner_of_);
+    const auto& owned = owned_[triangle];
+    return filling_.is_fillable(mesh_, loop_, {owned.begin(), owned.end()}, corner_of_);
 }
 
 bool SurfaceImage::is_sound() {
@@ -215,12 +215,12 @@ void SurfaceImage::file_crossers() {
         const FullEdge& edge = edges_[index];
         for (CornerId letter : edge.word) {
             if (mesh_.node(letter) != p_ && mesh_.head(letter) != p_) continue;
-            std::vector<uint32_t>& crossers = crossers_[canonical(letter)];
+            auto& crossers = crossers_[canonical(letter)];
             if (crossers.empty() || crossers.back() != index) crossers.push_back(index);
         }
-        const bool passes = std::any_of(edge.passes.begin(), edge.passes.end(),
-                                        [this](const Pass& pass) { return pass.node == p_; });
-        if (passes) passers_[p_].push_back(index);
+        if (edge.right != kNoCorner) continue;
+        const Passes& passes = passes_[index];
+        if (std::any_of(passes.begin(), passes.end(), [this](const Pass& pass) { return pass.node == p_; })) passers_[p_].push_back(index);
     }
 }
 
