@@ -1,5 +1,6 @@
 #include "lod/progressive/build_hierarchy.h"
 
+#include <future>
 #include <thread>
 
 #include "lod/base/hand_over.h"
@@ -23,14 +24,14 @@ VertexHierarchy build_alone(const ManifoldMesh& mesh, const DecimateOptions& opt
 VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& options) {
     constexpr size_t kBatch = 256;
     HandOver<CollapseBatch> hand_over;
-    std::vector<float> errors_m;
+    std::promise<std::vector<float>> errors_m;
     std::jthread prover([&] {
         ErrorProof proof(mesh.positions, mesh.triangles);
         for (auto batches = hand_over.take(); !batches.empty(); batches = hand_over.take()) {
             for (const CollapseBatch& batch : batches)
                 batch.for_each([&proof](const CollapseStep& step) { proof.take(step); });
         }
-        errors_m = proof.errors_m();
+        errors_m.set_value(proof.errors_m());
     });
     CollapseBatch batch;
     VertexHierarchy hierarchy = decimate(mesh, options, [&](const CollapseStep& step) {
@@ -40,9 +41,8 @@ VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& 
     hand_over.give(std::move(batch));
     hand_over.close();
     bound_normals(hierarchy);
-    prover.join();
-    hierarchy.error_m = std::move(errors_m);
-    bound_places(hierarchy);
+    hierarchy.error_m = errors_m.get_future().get();
+    bound_places(hierarchy);  // while the prover puts its things away
     return hierarchy;
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "lod/base/indexed_heap.h"
+#include "lod/progressive/coarse_mesh.h"
 #include "lod/progressive/hierarchy_recorder.h"
 #include "lod/progressive/quadric.h"
 #include "lod/progressive/star_safety.h"
@@ -61,7 +62,8 @@ class Decimator {
     void collapse(Edge edge, const glm::vec3& position);
     std::optional<Target> best_target(Edge edge) const;
     std::optional<Target> fallback_target(Edge edge, bool only_safe) const;
-    double cost_at(Edge edge, const glm::vec3& position) const;
+    Quadric quadric_of(Edge edge) const;
+    double cost_at(const Quadric& quadric, const glm::vec3& position) const;
     bool is_held(Vertex vertex) const { return is_locked_[index(vertex)] != 0; }
     bool is_safe(Edge edge, const glm::vec3& position) const;
     bool are_turns_safe(Vertex moved, Vertex other, const glm::vec3& to) const;
@@ -114,15 +116,38 @@ Decimator::Decimator(const ManifoldMesh& mesh, const DecimateOptions& options)
     is_second_try_.resize(half_edges_.n_edges(), 0);
 }
 
-/// The mesh is a manifold, so every face finds its place.
+/// The mesh is a manifold and its mates are known: links are set as they are, without a search for each face's place.
 void Decimator::add_faces() {
-    half_edges_.reserve(positions_.size(), 2 * mesh_.triangles.size(), mesh_.triangles.size());
-    for (size_t leaf = 0; leaf < positions_.size(); ++leaf)
+    const auto leaves = static_cast<uint32_t>(positions_.size());
+    const CoarseMesh corners(mesh_.triangles, leaves);
+    half_edges_.reserve(leaves, 2 * mesh_.triangles.size(), mesh_.triangles.size());
+    for (uint32_t leaf = 0; leaf < leaves; ++leaf)
         half_edges_.add_vertex(HalfEdges::Point(0.0f, 0.0f, 0.0f));
-    for (const auto& triangle : mesh_.triangles) {
-        const auto handle = [](uint32_t i) { return Vertex(static_cast<int>(i)); };
-        const Face face = half_edges_.add_face(handle(triangle[0]), handle(triangle[1]), handle(triangle[2]));
-        CHECK(face.is_valid());
+    const auto vertex = [](NodeId leaf) { return Vertex(static_cast<int>(leaf)); };
+    std::vector<HalfEdge> side(corners.corner_count());  // that leaves each corner
+    for (CornerId corner = 0; corner < side.size(); ++corner) {
+        const CornerId mate = corners.mate(corner);
+        side[corner] = mate < corner
+                           ? half_edges_.opposite_halfedge_handle(side[mate])
+                           : half_edges_.new_edge(vertex(corners.node(corner)), vertex(corners.head(corner)));
+    }
+    for (CornerId first = 0; first < side.size(); first += 3) {
+        const Face face = half_edges_.new_face();
+        half_edges_.set_halfedge_handle(face, side[first]);
+        for (CornerId corner = first; corner < first + 3; ++corner) {
+            half_edges_.set_face_handle(side[corner], face);
+            half_edges_.set_next_halfedge_handle(side[corner], side[next_corner(corner)]);
+            half_edges_.set_halfedge_handle(vertex(corners.node(corner)), side[corner]);
+        }
+    }
+    Fan fan;
+    for (CornerId corner = 0; corner < side.size(); ++corner) {
+        if (corners.mate(corner) != kNoCorner) continue;
+        corners.fan_at(corner, fan);  // from this border to the one that arrives
+        const HalfEdge in = half_edges_.opposite_halfedge_handle(side[corner]);
+        const HalfEdge out = half_edges_.opposite_halfedge_handle(side[prev_corner(fan.corners.back())]);
+        half_edges_.set_next_halfedge_handle(in, out);
+        half_edges_.set_halfedge_handle(vertex(corners.node(corner)), out);
     }
 }
 
@@ -177,13 +202,17 @@ void Decimator::add_quadrics() {
     }
 }
 
-double Decimator::cost_at(Edge edge, const glm::vec3& position) const {
-    constexpr double kNoise = 1e-14;  // squared, of the extent: what float coordinates leave of a plane
+Quadric Decimator::quadric_of(Edge edge) const {
     const auto [a, b] = ends(edge);
     Quadric sum = quadrics_[index(a)];
     sum += quadrics_[index(b)];
-    const double cost = sum.at(local(position));
-    return cost > kNoise * sum.weight ? cost : 0.0;
+    return sum;
+}
+
+double Decimator::cost_at(const Quadric& quadric, const glm::vec3& position) const {
+    constexpr double kNoise = 1e-14;  // squared, of the extent: what float coordinates leave of a plane
+    const double cost = quadric.at(local(position));
+    return cost > kNoise * quadric.weight ? cost : 0.0;
 }
 
 /// The best of both ends and, if it may be off them, the middle, as far as they may move.
@@ -194,9 +223,10 @@ std::optional<Target> Decimator::fallback_target(Edge edge, bool only_safe) cons
     const bool is_a_fixed = is_held(a) || (half_edges_.is_boundary(a) && !is_border_edge);
     const bool is_b_fixed = is_held(b) || (half_edges_.is_boundary(b) && !is_border_edge);
     std::optional<Target> best;
+    const Quadric quadric = quadric_of(edge);
     const auto attempt = [&](const glm::vec3& position) {
         if (only_safe && !is_safe(edge, position)) return;
-        const double cost = cost_at(edge, position);
+        const double cost = cost_at(quadric, position);
         if (!best || cost < best->cost) best = Target{position, cost};
     };
     if (is_a_fixed && is_b_fixed) return best;
@@ -218,15 +248,14 @@ std::optional<Target> Decimator::best_target(Edge edge) const {
     }
     std::optional<Target> best = fallback_target(edge, false);
     if (!best || !is_free || best->cost == 0.0) return best;
-    Quadric sum = quadrics_[index(a)];
-    sum += quadrics_[index(b)];
-    const std::optional<glm::dvec3> least = sum.least();
+    const Quadric quadric = quadric_of(edge);
+    const std::optional<glm::dvec3> least = quadric.least();
     if (!least) return best;
     const glm::dvec3 at_a = local(positions_[index(a)]), at_b = local(positions_[index(b)]);
     const glm::dvec3 off = *least - 0.5 * (at_a + at_b), along = at_b - at_a;
     if (glm::dot(off, off) > 4.0 * glm::dot(along, along)) return best;
     const glm::vec3 position = in_mesh(*least);
-    const double cost = cost_at(edge, position);
+    const double cost = cost_at(quadric, position);
     if (cost < best->cost) best = Target{position, cost};
     return best;
 }

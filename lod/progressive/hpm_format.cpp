@@ -6,7 +6,7 @@
 namespace lod {
 namespace {
 
-constexpr Seal kSeal{{'H', 'a', 'r', 'r', 'i', 'e', 'r', 'M'}, 1, "a progressive mesh", "harrier mesh build"};
+constexpr Seal kSeal{{'H', 'a', 'r', 'r', 'i', 'e', 'r', 'M'}, 2, "a progressive mesh", "harrier mesh build"};
 
 /// All arrays of a hierarchy, in the file's order.
 template <typename Hierarchy, typename Visit>

@@ -134,21 +134,21 @@ class SurfaceImage {
     std::vector<glm::dvec3> positions_;  // [nodes so far]
     CoarseMesh mesh_;
     std::vector<FullEdge> edges_;
-    std::vector<uint32_t> edge_of_;          // [corners of the full mesh]
-    std::vector<uint32_t> incident_begin_;   // [leaves + 1] into incident_
-    std::vector<uint32_t> incident_;         // full edges at a vertex
+    std::vector<uint32_t> edge_of_;           // [corners of the full mesh]
+    std::vector<uint32_t> incident_begin_;    // [leaves + 1] into incident_
+    std::vector<uint32_t> incident_;          // full edges at a vertex
     std::vector<ShortList<uint32_t, 6>> on_;  // [triangles] full vertices that lie there
-    std::vector<uint32_t> triangle_of_;      // [leaves] where the full vertex lies
-    std::vector<CornerId> border_of_;        // [leaves] its border half-edge; kNoCorner: inside
+    std::vector<uint32_t> triangle_of_;       // [leaves] where the full vertex lies
+    std::vector<CornerId> border_of_;         // [leaves] its border half-edge; kNoCorner: inside
     std::vector<ShortList<uint32_t, 6>>
         crossers_;  // [corners, the canonical] full edges that cross, perhaps twice
     std::unordered_map<uint32_t, Passes> passes_;  // of border edges: nodes passed
-    std::vector<std::vector<uint32_t>> passers_;  // [nodes] full border edges that pass
-    std::vector<uint32_t> owner_;                 // [nodes] full triangle; kNone at borders
+    std::vector<std::vector<uint32_t>> passers_;   // [nodes] full border edges that pass
+    std::vector<uint32_t> owner_;                  // [nodes] full triangle; kNone at borders
     std::vector<ShortList<NodeId, 2>> owned_;      // [triangles of the full mesh]
-    std::vector<CornerId> corner_of_;             // [nodes] one of its corners
-    std::vector<double> edge_bound_m_;            // [corners] crossings of that edge
-    std::vector<double> node_bound_m_;            // [nodes] owner or passers
+    std::vector<CornerId> corner_of_;              // [nodes] one of its corners
+    std::vector<double> edge_bound_m_;             // [corners] crossings of that edge
+    std::vector<double> node_bound_m_;             // [nodes] owner or passers
 
     // The collapse at hand.
     NodeId p_ = 0, centre_ = 0, other_ = 0;
@@ -168,10 +168,10 @@ class SurfaceImage {
     Loop loop_;
     Filling filling_;
     std::vector<std::pair<uint32_t, bool>> suspects_;  // vertices with an edge that goes round p, is_ccw
-    std::vector<uint32_t> member_of_;  // [leaves] into members_, kNone: outside
-    std::vector<uint8_t> is_touched_;  // [edges]
-    std::vector<uint32_t> sector_of_;  // [triangles] in the new fan
-    std::vector<uint32_t> rule_of_;    // [corners] into rules_, kNone: stays
+    std::vector<uint32_t> member_of_;                  // [leaves] into members_, kNone: outside
+    std::vector<uint8_t> is_touched_;                  // [edges]
+    std::vector<uint32_t> sector_of_;                  // [triangles] in the new fan
+    std::vector<uint32_t> rule_of_;                    // [corners] into rules_, kNone: stays
     std::vector<Word> rules_;
     std::vector<CornerId> ruled_;
     struct Removed {

@@ -220,7 +220,8 @@ void SurfaceImage::file_crossers() {
         }
         if (edge.right != kNoCorner) continue;
         const Passes& passes = passes_[index];
-        if (std::any_of(passes.begin(), passes.end(), [this](const Pass& pass) { return pass.node == p_; })) passers_[p_].push_back(index);
+        if (std::any_of(passes.begin(), passes.end(), [this](const Pass& pass) { return pass.node == p_; }))
+            passers_[p_].push_back(index);
     }
 }
 
