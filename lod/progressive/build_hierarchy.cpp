@@ -1,6 +1,5 @@
 #include "lod/progressive/build_hierarchy.h"
 
-#include <future>
 #include <thread>
 
 #include "lod/base/hand_over.h"
@@ -23,26 +22,37 @@ VertexHierarchy build_alone(const ManifoldMesh& mesh, const DecimateOptions& opt
 
 VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& options) {
     constexpr size_t kBatch = 256;
-    HandOver<CollapseBatch> hand_over;
-    std::promise<std::vector<float>> errors_m;
+    HandOver<CollapseBatch> collapses;
+    HandOver<std::vector<float>> errors_m;  // of the collapses' nodes
     std::jthread prover([&] {
         ErrorProof proof(mesh.positions, mesh.triangles);
-        for (auto batches = hand_over.take(); !batches.empty(); batches = hand_over.take()) {
-            for (const CollapseBatch& batch : batches)
-                batch.for_each([&proof](const CollapseStep& step) { proof.take(step); });
+        for (auto batches = collapses.take(); !batches.empty(); batches = collapses.take()) {
+            for (const CollapseBatch& batch : batches) {
+                std::vector<float> proved_m;
+                batch.for_each([&](const CollapseStep& step) { proved_m.push_back(proof.take(step)); });
+                errors_m.give(std::move(proved_m));
+            }
         }
-        errors_m.set_value(proof.errors_m());
+        errors_m.close();
     });
     CollapseBatch batch;
     VertexHierarchy hierarchy = decimate(mesh, options, [&](const CollapseStep& step) {
         batch.add(step);
-        if (batch.size() == kBatch) hand_over.give(std::exchange(batch, {}));
+        if (batch.size() == kBatch) collapses.give(std::exchange(batch, {}));
     });
-    hand_over.give(std::move(batch));
-    hand_over.close();
+    collapses.give(std::move(batch));
+    collapses.close();
     bound_normals(hierarchy);
-    hierarchy.error_m = errors_m.get_future().get();
-    bound_places(hierarchy);  // while the prover puts its things away
+    PlaceBounds places(hierarchy);
+    std::vector<float> all_m(hierarchy.leaf_count, 0.0f);
+    for (auto proved = errors_m.take(); !proved.empty(); proved = errors_m.take()) {
+        for (const std::vector<float>& some_m : proved) {
+            places.take(some_m);
+            all_m.insert(all_m.end(), some_m.begin(), some_m.end());
+        }
+    }
+    hierarchy.error_m = std::move(all_m);
+    places.finish(hierarchy);
     return hierarchy;
 }
 

@@ -14,12 +14,13 @@ ErrorProof::ErrorProof(std::span<const glm::vec3> leaves, std::span<const std::a
     noise_m_ = largest * 0x1p-40;
 }
 
-void ErrorProof::take(const CollapseStep& step) {
+float ErrorProof::take(const CollapseStep& step) {
     const float least_m = std::max(errors_m_[step.children[0]], errors_m_[step.children[1]]);
     const double bound = image_.collapse(step, double(least_m));
     float error_m = static_cast<float>(bound);
     if (double(error_m) < bound) error_m = std::nextafter(error_m, std::numeric_limits<float>::max());
     errors_m_.push_back(std::max(least_m, bound > noise_m_ ? error_m : 0.0f));
+    return errors_m_.back();
 }
 
 }  // namespace lod

@@ -16,8 +16,8 @@ class ErrorProof {
     /// @param triangles  of leaves; a manifold. Kept by reference, must not change
     ErrorProof(std::span<const glm::vec3> leaves, std::span<const std::array<NodeId, 3>> triangles);
 
-    /// Cost: about 4 us.
-    void take(const CollapseStep& step);
+    /// @returns error_m of its node. Cost: about 12 us in a mesh of 40,000 vertices
+    float take(const CollapseStep& step);
     /// error_m of a hierarchy: of all nodes so far, leaves first.
     const std::vector<float>& errors_m() const { return errors_m_; }
 

@@ -4,18 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "lod/base/check.h"
 #include "lod/progressive/collapse_step.h"
 
 namespace lod {
 namespace {
 
-struct Sphere {
-    glm::dvec3 centre{0.0};
-    double radius = -1.0;  ///< below 0: nothing yet
-};
-
 /// The least sphere around two.
-Sphere around(const Sphere& a, const Sphere& b) {
+GrowingSphere around(const GrowingSphere& a, const GrowingSphere& b) {
     if (a.radius < 0.0) return b;
     if (b.radius < 0.0) return a;
     const double apart = glm::length(b.centre - a.centre);
@@ -51,10 +47,9 @@ glm::dvec3 place(const VertexHierarchy& h, NodeId node) {
     return glm::dvec3(h.position[node]);
 }
 
-/// All triangles that nodes are made with, leaves' first: (its corners, the node), then of each collapse the node's two
-/// children.
-template <typename Take, typename Join>
-void replay(const VertexHierarchy& h, const Take& take, const Join& join) {
+/// The full mesh's triangles: take(its corners, the leaf), for each leaf of each. @returns the nodes of all corners
+template <typename Take>
+std::vector<NodeId> replay_leaves(const VertexHierarchy& h, const Take& take) {
     std::vector<NodeId> corners;
     corners.reserve(3 * h.triangles.size());
     for (const auto& triangle : h.triangles) {
@@ -62,37 +57,63 @@ void replay(const VertexHierarchy& h, const Take& take, const Join& join) {
         for (NodeId leaf : triangle)
             take(triangle.data(), leaf);
     }
-    for (uint32_t k = 0; k < h.collapse_count(); ++k) {
-        const CollapseStep step = step_of(h, k);
-        const NodeId node = h.leaf_count + k;
-        for (NodeId child : step.children)
-            join(node, child);
-        for (CornerId corner : step.kept)
-            corners[corner] = node;
-        for (CornerId corner : step.kept)
-            take(&corners[corner / 3 * 3], node);
-    }
+    return corners;
+}
+
+/// The k-th collapse: join(node, child) for both children, then take(its corners, the node) for all triangles it makes.
+/// @param corners  as replay_leaves and the collapses before left them
+template <typename Take, typename Join>
+void replay_collapse(const VertexHierarchy& h, uint32_t k, std::vector<NodeId>& corners, const Take& take,
+                     const Join& join) {
+    const CollapseStep step = step_of(h, k);
+    const NodeId node = h.leaf_count + k;
+    for (NodeId child : step.children)
+        join(node, child);
+    for (CornerId corner : step.kept)
+        corners[corner] = node;
+    for (CornerId corner : step.kept)
+        take(&corners[corner / 3 * 3], node);
 }
 
 }  // namespace
 
-void bound_places(VertexHierarchy& h) {
-    std::vector<Sphere> spheres(h.node_count());
-    const auto take = [&](const NodeId* corners, NodeId node) {
-        for (const NodeId* corner = corners; corner < corners + 3; ++corner)
-            spheres[node] = around(spheres[node], {place(h, *corner), double(h.error_m[node])});
-    };
-    replay(h, take,
-           [&](NodeId node, NodeId child) { spheres[node] = around(spheres[node], spheres[child]); });
-    h.centre.clear(), h.radius_m.clear();
-    for (const Sphere& sphere : spheres) {
+PlaceBounds::PlaceBounds(const VertexHierarchy& hierarchy)
+    : hierarchy_(hierarchy), spheres_(hierarchy.node_count()) {
+    corners_ = replay_leaves(hierarchy, [&](const NodeId* corners, NodeId leaf) { add(corners, leaf, 0.0); });
+}
+
+/// A triangle that the node is made with.
+void PlaceBounds::add(const NodeId* corners, NodeId node, double error_m) {
+    for (size_t k = 0; k < 3; ++k)
+        spheres_[node] = around(spheres_[node], {place(hierarchy_, corners[k]), error_m});
+}
+
+void PlaceBounds::take(std::span<const float> errors_m) {
+    for (float error_m : errors_m) {
+        replay_collapse(
+            hierarchy_, taken_++, corners_,
+            [&](const NodeId* corners, NodeId node) { add(corners, node, double(error_m)); },
+            [&](NodeId node, NodeId child) { spheres_[node] = around(spheres_[node], spheres_[child]); });
+    }
+}
+
+void PlaceBounds::finish(VertexHierarchy& out) const {
+    CHECK(taken_ == hierarchy_.collapse_count());
+    out.centre.clear(), out.radius_m.clear();
+    for (const GrowingSphere& sphere : spheres_) {
         const glm::vec3 centre(sphere.centre);
         const double shift = glm::length(glm::dvec3(centre) - sphere.centre);
         const auto radius = static_cast<float>(std::max(sphere.radius, 0.0) + shift);
-        h.centre.push_back(centre);
-        h.radius_m.push_back(radius * (1.0f + 4.0f * std::numeric_limits<float>::epsilon()) +
-                             std::numeric_limits<float>::min());
+        out.centre.push_back(centre);
+        out.radius_m.push_back(radius * (1.0f + 4.0f * std::numeric_limits<float>::epsilon()) +
+                               std::numeric_limits<float>::min());
     }
+}
+
+void bound_places(VertexHierarchy& h) {
+    PlaceBounds bounds(h);
+    bounds.take(std::span(h.error_m).subspan(h.leaf_count));
+    bounds.finish(h);
 }
 
 void bound_normals(VertexHierarchy& h) {
@@ -104,7 +125,10 @@ void bound_normals(VertexHierarchy& h) {
         const double length = glm::length(across);
         if (length > 0.0) cones[node] = around(cones[node], {across / length, 0.0});
     };
-    replay(h, take, [&](NodeId node, NodeId child) { cones[node] = around(cones[node], cones[child]); });
+    const auto join = [&](NodeId node, NodeId child) { cones[node] = around(cones[node], cones[child]); };
+    std::vector<NodeId> corners = replay_leaves(h, take);
+    for (uint32_t k = 0; k < h.collapse_count(); ++k)
+        replay_collapse(h, k, corners, take, join);
     h.cone_axis.clear(), h.cone_cos.clear();
     for (const Cone& cone : cones) {
         const bool is_open = cone.angle_rad >= 0.0 && cone.angle_rad < 0.5 * kPi;

@@ -1,12 +1,12 @@
 #include "lod/progressive/manifold_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
 #include <string>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "lod/base/hash.h"
@@ -62,16 +62,30 @@ Result<Ok> check_input(const SurfaceMesh& mesh) {
     return Ok{};
 }
 
-struct CornersHash {
-    size_t operator()(const Corners& c) const {
-        return static_cast<size_t>(hash_combine(hash_combine(c[0], c[1]), c[2]));
+/// Triangles that are all different; chains of a hash table over plain arrays.
+class FaceSet {
+  public:
+    explicit FaceSet(size_t most) : first_(std::bit_ceil(most + 1), kNone) {}
+    /// Whether it was not there yet.
+    bool insert(const Corners& face) {
+        const uint64_t hash = hash_combine(hash_combine(face[0], face[1]), face[2]);
+        uint32_t& first = first_[hash & (first_.size() - 1)];
+        for (uint32_t at = first; at != kNone; at = next_[at]) {
+            if (faces_[at] == face) return false;
+        }
+        next_.push_back(std::exchange(first, static_cast<uint32_t>(faces_.size())));
+        faces_.push_back(face);
+        return true;
     }
+
+  private:
+    std::vector<uint32_t> first_, next_;
+    std::vector<Corners> faces_;
 };
 
 Faces collect_faces(const SurfaceMesh& mesh, const std::vector<uint32_t>& place_of, MeshReport& report) {
     Faces faces;
-    std::unordered_map<Corners, uint32_t, CornersHash> seen;
-    seen.reserve(mesh.triangles.size());
+    FaceSet seen(mesh.triangles.size());
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         Corners c;
         for (size_t k = 0; k < 3; ++k)
@@ -82,7 +96,7 @@ Faces collect_faces(const SurfaceMesh& mesh, const std::vector<uint32_t>& place_
         }
         Corners key = c;
         std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-        if (!seen.emplace(key, t).second) {
+        if (!seen.insert(key)) {
             ++report.duplicate_faces;
             continue;
         }
@@ -134,14 +148,18 @@ std::vector<Side> sorted_sides(const Faces& faces, uint32_t places) {
     return sides;
 }
 
+/// Two sides that may become mates.
+struct SidePair {
+    double straightness = 0.0;
+    uint32_t rising = 0, falling = 0;
+};
+
 /// Joins the triangles at one edge in pairs that run opposite ways, the straightest continuation first.
 /// @param mates  [corners] the side's mate, kNone: a border
-void pair_sides(std::span<const Side> sides, const Faces& faces, std::vector<uint32_t>& mates) {
-    struct Pair {
-        double straightness;
-        uint32_t rising, falling;
-    };
-    std::vector<Pair> pairs;
+/// @param pairs  scratch
+void pair_sides(std::span<const Side> sides, const Faces& faces, std::vector<SidePair>& pairs,
+                std::vector<uint32_t>& mates) {
+    pairs.clear();
     for (const Side& rising : sides) {
         for (const Side& falling : sides) {
             if (!rising.is_rising || falling.is_rising) continue;
@@ -149,10 +167,10 @@ void pair_sides(std::span<const Side> sides, const Faces& faces, std::vector<uin
             if (cosine > kFoldCos) pairs.push_back({cosine, rising.corner, falling.corner});
         }
     }
-    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    std::sort(pairs.begin(), pairs.end(), [](const SidePair& a, const SidePair& b) {
         return std::tie(b.straightness, a.rising, a.falling) < std::tie(a.straightness, b.rising, b.falling);
     });
-    for (const Pair& pair : pairs) {
+    for (const SidePair& pair : pairs) {
         if (mates[pair.rising] != kNone || mates[pair.falling] != kNone) continue;
         mates[pair.rising] = pair.falling;
         mates[pair.falling] = pair.rising;
@@ -167,12 +185,13 @@ struct Sheets {
 Sheets join_sheets(const Faces& faces, uint32_t places, MeshReport& report) {
     Sheets sheets{std::vector<uint32_t>(3 * faces.places.size(), kNone), std::vector<uint8_t>(places, 0)};
     const std::vector<Side> sides = sorted_sides(faces, places);
+    std::vector<SidePair> pairs;
     for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         while (end < sides.size() && sides[end].low == sides[begin].low &&
                sides[end].high == sides[begin].high)
             ++end;
         const std::span<const Side> edge(&sides[begin], end - begin);
-        pair_sides(edge, faces, sheets.mates);
+        pair_sides(edge, faces, pairs, sheets.mates);
         size_t unpaired = 0;
         for (const Side& side : edge)
             unpaired += sheets.mates[side.corner] == kNone ? 1u : 0u;
