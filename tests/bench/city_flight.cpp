@@ -1,17 +1,23 @@
 // Frames of the city of prism_city.h under a bound: an overview from a circle, a flight above the roofs, a drive through a
 // street; whole frames, waited for. A line each; city_compare.py sets them beside other programs'.
 //
-//     city_flight [TOLERANCE_PX [FRAMES [SUFFIX.png]]]
+//     city_flight TREE.hdlod [TOLERANCE_PX [FRAMES [SUFFIX.png]]]
+//
+// The tree is read from the file, or built and kept there, which takes a quarter of an hour of processors.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "lod/scheduler.h"
 #include "objects/cluster_front.h"
 #include "objects/clustering/cluster_build.h"
+#include "objects/tree_file.h"
 #include "render/renderer.h"
 #include "tests/bench/prism_city.h"
 
@@ -129,19 +135,42 @@ void print(const Way& way, const Figures& f) {
         percentile(f.triangles, 0.5), percentile(f.items, 0.5), f.error_px);
 }
 
-}  // namespace
+std::optional<objects::ClusterTree> read_tree(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(file)), {});
+    auto tree = objects::decode_tree(bytes);
+    if (tree) return std::move(*tree);
+    std::fprintf(stderr, "%s: %s\n", path.c_str(), tree.message().c_str());
+    return std::nullopt;
+}
 
-int main(int count, char** words) {
-    const double tolerance_px = count > 1 ? std::atof(words[1]) : 2.0;
-    const int frames = count > 2 ? std::max(std::atoi(words[2]), 1) : 60;
-    const std::string picture = count > 3 ? words[3] : "";
+objects::ClusterTree build_tree(const std::string& path) {
     objects::BuildOptions options;
     options.threads = 2;
     options.spent_share = 0.06;  // no two prisms are alike: what is nearly exact pays
     const double begin = now_ms();
     objects::ClusterTree tree = objects::build_cluster_tree(bench::prism_city(), options);
-    std::fprintf(stderr, "city: %u objects in %zu clusters, built in %.1f s\n", tree.object_count,
-                 tree.clusters.size(), (now_ms() - begin) / 1e3);
+    std::fprintf(stderr, "city: built in %.1f s\n", (now_ms() - begin) / 1e3);
+    const std::vector<unsigned char> bytes = objects::encode_tree(tree);
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return tree;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    if (count < 2) {
+        std::fprintf(stderr, "expected the file of the city's tree, there or not\n");
+        return 1;
+    }
+    const double tolerance_px = count > 2 ? std::atof(words[2]) : 2.0;
+    const int frames = count > 3 ? std::max(std::atoi(words[3]), 1) : 60;
+    const std::string picture = count > 4 ? words[4] : "";
+    std::optional<objects::ClusterTree> known = read_tree(words[1]);
+    objects::ClusterTree tree = known ? std::move(*known) : build_tree(words[1]);
+    std::fprintf(stderr, "city: %u objects in %zu clusters\n", tree.object_count, tree.clusters.size());
     render::RendererOptions rendering;
     rendering.width_px = kWidth_px;
     rendering.height_px = kHeight_px;
