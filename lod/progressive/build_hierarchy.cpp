@@ -29,7 +29,10 @@ VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& 
         for (auto batches = collapses.take(); !batches.empty(); batches = collapses.take()) {
             for (const CollapseBatch& batch : batches) {
                 std::vector<float> proved_m;
-                batch.for_each([&](const CollapseStep& step) { proved_m.push_back(proof.take(step)); });
+                for (size_t k = 0; k < batch.size(); ++k) {
+                    if (k + 1 < batch.size()) proof.expect(batch[k + 1]);
+                    proved_m.push_back(proof.take(batch[k]));
+                }
                 errors_m.give(std::move(proved_m));
             }
         }

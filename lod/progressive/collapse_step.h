@@ -33,16 +33,13 @@ class CollapseBatch {
         removed_.insert(removed_.end(), step.removed.begin(), step.removed.end());
         entries_.push_back({step.children, step.position, kept_.size(), removed_.size()});
     }
-    template <typename Visit>
-    void for_each(const Visit& visit) const {
-        size_t kept = 0, removed = 0;
-        for (const Entry& entry : entries_) {
-            visit(CollapseStep{entry.children, entry.position,
-                               std::span(kept_).subspan(kept, entry.kept_end - kept),
-                               std::span(removed_).subspan(removed, entry.removed_end - removed)});
-            kept = entry.kept_end;
-            removed = entry.removed_end;
-        }
+    /// @param k  below size()
+    CollapseStep operator[](size_t k) const {
+        const size_t kept = k == 0 ? 0 : entries_[k - 1].kept_end,
+                     removed = k == 0 ? 0 : entries_[k - 1].removed_end;
+        const Entry& entry = entries_[k];
+        return {entry.children, entry.position, std::span(kept_).subspan(kept, entry.kept_end - kept),
+                std::span(removed_).subspan(removed, entry.removed_end - removed)};
     }
 
   private:

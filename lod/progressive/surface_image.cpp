@@ -60,6 +60,19 @@ double SurfaceImage::collapse(const CollapseStep& step, double enough_m) {
     return bound;
 }
 
+void SurfaceImage::expect(const CollapseStep& step) const {
+    for (CornerId corner : step.kept) {
+        __builtin_prefetch(&crossers_[canonical(corner)], 1);
+        __builtin_prefetch(&crossers_[canonical(prev_corner(corner))], 1);
+        __builtin_prefetch(&on_[corner / 3], 1);
+    }
+    for (uint32_t triangle : step.removed) {
+        __builtin_prefetch(&crossers_[3 * triangle], 1);
+        __builtin_prefetch(&crossers_[3 * triangle + 2], 1);
+        __builtin_prefetch(&on_[triangle], 1);
+    }
+}
+
 CornerId SurfaceImage::canonical(CornerId corner) const {
     return std::min(corner, mesh_.mate(corner));  // a border's mate is the largest number
 }

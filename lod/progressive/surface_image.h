@@ -51,6 +51,10 @@ class SurfaceImage {
     /// @returns         the bound for the triangles it makes, m; what is below enough_m may be left out
     double collapse(const CollapseStep& step, double enough_m = 0.0);
 
+    /// Calls up the memory that a collapse will read first; that of the next one is on its way while this one is taken.
+    /// Changes nothing.
+    void expect(const CollapseStep& step) const;
+
     /// Whether all full triangles can be drawn together as claimed. For tests; O(n).
     bool is_sound();
 
