@@ -23,20 +23,20 @@ VertexHierarchy build_alone(const ManifoldMesh& mesh, const DecimateOptions& opt
 VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& options) {
     constexpr size_t kBatch = 256;
     HandOver<CollapseBatch> collapses;
-    HandOver<std::vector<float>> errors_m;  // of the collapses' nodes
-    std::jthread prover([&] {
-        ErrorProof proof(mesh.positions, mesh.triangles);
+    HandOver<StarMeasures> to_measure;
+    std::jthread mapper([&] {
+        SurfaceImage image(mesh.positions, mesh.triangles);
         for (auto batches = collapses.take(); !batches.empty(); batches = collapses.take()) {
             for (const CollapseBatch& batch : batches) {
-                std::vector<float> proved_m;
+                StarMeasures measures;
                 for (size_t k = 0; k < batch.size(); ++k) {
-                    if (k + 1 < batch.size()) proof.expect(batch[k + 1]);
-                    proved_m.push_back(proof.take(batch[k]));
+                    if (k + 1 < batch.size()) image.expect(batch[k + 1]);
+                    image.collapse(batch[k], measures);
                 }
-                errors_m.give(std::move(proved_m));
+                to_measure.give(std::move(measures));
             }
         }
-        errors_m.close();
+        to_measure.close();
     });
     CollapseBatch batch;
     VertexHierarchy hierarchy = decimate(mesh, options, [&](const CollapseStep& step) {
@@ -46,15 +46,13 @@ VertexHierarchy build_in_pairs(const ManifoldMesh& mesh, const DecimateOptions& 
     collapses.give(std::move(batch));
     collapses.close();
     bound_normals(hierarchy);
+    StarBounds bounds(mesh.positions, 3 * mesh.triangles.size());
     PlaceBounds places(hierarchy);
-    std::vector<float> all_m(hierarchy.leaf_count, 0.0f);
-    for (auto proved = errors_m.take(); !proved.empty(); proved = errors_m.take()) {
-        for (const std::vector<float>& some_m : proved) {
-            places.take(some_m);
-            all_m.insert(all_m.end(), some_m.begin(), some_m.end());
-        }
+    for (auto batches = to_measure.take(); !batches.empty(); batches = to_measure.take()) {
+        for (const StarMeasures& measures : batches)
+            places.take(bounds.take(measures));
     }
-    hierarchy.error_m = std::move(all_m);
+    hierarchy.error_m = bounds.errors_m();
     places.finish(hierarchy);
     return hierarchy;
 }

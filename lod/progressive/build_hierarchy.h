@@ -1,7 +1,10 @@
 // Building a vertex hierarchy, from triangles to proved errors: weld, decimate, prove, bound.
 //
-//     one thread    decimate ── cones ──┐                  the proof needs nothing but the collapses, in their order,
-//     the other        └─ batches ─ prove ─ spheres        so the result is the same on one thread and on two
+//     one thread    decimate ──────── cones, errors, spheres
+//     the other        └─ batches ─ map ──┘
+//
+// The map (surface_image.h) needs nothing but the collapses, the errors (star_bounds.h) nothing but what the map says is to be
+// measured, each in their order: the result is the same on one thread and on two.
 #pragma once
 
 #include "lod/base/result.h"

@@ -7,10 +7,10 @@
 
 namespace lod {
 
-double SurfaceImage::collapse(const CollapseStep& step, double enough_m) {
+void SurfaceImage::collapse(const CollapseStep& step, StarMeasures& out) {
     p_ = static_cast<NodeId>(positions_.size());
     positions_.emplace_back(step.position);
-    enough_m_ = std::max(enough_m, noise_m_);
+    enough_m_ = std::max({seen_m_[step.children[0]], seen_m_[step.children[1]], noise_m_});
     bound2_ = 0.0;
     choose_centre(step);
     gather_star(step);
@@ -25,7 +25,8 @@ double SurfaceImage::collapse(const CollapseStep& step, double enough_m) {
     find_owner();
     untwist();
     file_crossers();
-    const double bound = star_bound();
+    seen_m_[p_] = std::max({enough_m_, glm::sqrt(bound2_), owner_m_[p_]});
+    note_measures(step, out);
     for (const Member& member : members_)
         member_of_[member.vertex] = kNone;
     for (uint32_t edge : touched_)
@@ -34,7 +35,6 @@ double SurfaceImage::collapse(const CollapseStep& step, double enough_m) {
         sector_of_[corner / 3] = kNone;
     for (CornerId corner : ruled_)
         rule_of_[corner] = kNone;
-    return bound;
 }
 
 void SurfaceImage::expect(const CollapseStep& step) const {
@@ -186,8 +186,7 @@ void SurfaceImage::replace_star(const CollapseStep& step) {
         sector_of_[corner / 3] = static_cast<uint32_t>(i);
         sectors_.emplace_back(coarse_triangle(corner));
         const CornerId outer = next_corner(corner);
-        enough_m_ = std::max({enough_m_, edge_bound_m_[outer], node_bound_m_[mesh_.node(outer)],
-                              node_bound_m_[mesh_.head(outer)]});
+        enough_m_ = std::max({enough_m_, owner_m_[mesh_.node(outer)], owner_m_[mesh_.head(outer)]});
         corner_of_[p_] = corner;
         corner_of_[mesh_.node(next_corner(corner))] = next_corner(corner);
         corner_of_[mesh_.node(prev_corner(corner))] = prev_corner(corner);

@@ -34,6 +34,7 @@
 #include "lod/progressive/coarse_mesh.h"
 #include "lod/progressive/collapse_step.h"
 #include "lod/progressive/edge_words.h"
+#include "lod/progressive/star_measures.h"
 #include "lod/progressive/vertex_hierarchy.h"
 #include "lod/surface/triangle.h"
 
@@ -46,10 +47,10 @@ class SurfaceImage {
     /// @param triangles  of leaves; a manifold. Kept by reference, must not change
     SurfaceImage(std::span<const glm::vec3> leaves, std::span<const std::array<NodeId, 3>> triangles);
 
-    /// Takes the next collapse; its node's number is that of the leaves and all nodes before.
-    /// @param enough_m  no search goes on below this: the node's error is no less anyway
-    /// @returns         the bound for the triangles it makes, m; what is below enough_m may be left out
-    double collapse(const CollapseStep& step, double enough_m = 0.0);
+    /// Takes the next collapse; its node's number is that of the leaves and all nodes before. No search goes on below what
+    /// its triangles' error is no less than anyway, as far as vertices and owners say.
+    /// @param out  what is to be measured to bound the triangles it makes is appended
+    void collapse(const CollapseStep& step, StarMeasures& out);
 
     /// Calls up the memory that a collapse will read first; that of the next one is on its way while this one is taken.
     /// Changes nothing.
@@ -124,8 +125,8 @@ class SurfaceImage {
     bool flip(uint32_t edge, uint32_t from, uint32_t to);
     bool send_round(FullEdge& edge, bool is_ccw);
     void file_crossers();
-    double star_bound();
-    double crossing_bound(const FullEdge& edge, CornerId corner, double unnoticed2) const;
+    void note_measures(const CollapseStep& step, StarMeasures& out) const;
+    void note_crossings(CornerId spoke, StarMeasures& out) const;
     double owner_distance(NodeId node, uint32_t triangle) const;
 
     CornerId canonical(CornerId corner) const;
@@ -151,8 +152,8 @@ class SurfaceImage {
     std::vector<uint32_t> owner_;                  // [nodes] full triangle; kNone at borders
     std::vector<ShortList<NodeId, 2>> owned_;      // [triangles of the full mesh]
     std::vector<CornerId> corner_of_;              // [nodes] one of its corners
-    std::vector<double> edge_bound_m_;             // [corners] crossings of that edge
-    std::vector<double> node_bound_m_;             // [nodes] owner or passers
+    std::vector<double> owner_m_;                  // [nodes] distance from the owner; 0 at borders
+    std::vector<double> seen_m_;                   // [nodes] their errors are no less
 
     // The collapse at hand.
     NodeId p_ = 0, centre_ = 0, other_ = 0;
@@ -185,7 +186,7 @@ class SurfaceImage {
     };
     std::vector<Removed> removed_;
     double noise_m_ = 0.0;   // of the coordinates
-    double enough_m_ = 0.0;  // below this nothing is worth a search
+    double enough_m_ = 0.0;  // the error at hand is no less: below this nothing is worth a search
     double bound2_ = 0.0;    // largest squared distance of a vertex
 };
 

@@ -44,8 +44,8 @@ SurfaceImage::SurfaceImage(std::span<const glm::vec3> leaves,
     owner_.resize(most_nodes, kNone);
     owned_.resize(triangles_.size());
     corner_of_.resize(most_nodes, kNoCorner);
-    edge_bound_m_.resize(corners, 0.0);
-    node_bound_m_.resize(most_nodes, 0.0);
+    owner_m_.resize(most_nodes, 0.0);
+    seen_m_.resize(most_nodes, 0.0);
     member_of_.resize(leaf_count_, kNone);
     sector_of_.resize(triangles_.size(), kNone);
     rule_of_.resize(corners, kNone);

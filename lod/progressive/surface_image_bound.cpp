@@ -1,7 +1,6 @@
-// SurfaceImage: owners of nodes, and the bound that everything in a star gives.
+// SurfaceImage: turns round a node, owners of nodes, and what is to be measured in a star.
 #include <algorithm>
 
-#include "lod/progressive/segment_distance.h"
 #include "lod/progressive/surface_image.h"
 
 namespace lod {
@@ -135,7 +134,7 @@ void SurfaceImage::find_owner() {
             is_moving = flip(way_[steps[i]].edge, owner_[p_], way_[steps[i]].triangle);
         apart = owner_distance(p_, owner_[p_]);
     }
-    node_bound_m_[p_] = apart;
+    owner_m_[p_] = apart;
 }
 
 /// Gives p from one full triangle to its neighbour across an edge, whose image then passes p on the other side.
@@ -225,45 +224,35 @@ void SurfaceImage::file_crossers() {
     }
 }
 
-/// The distance of a full edge from a coarse one that it crosses, or more, up to `unnoticed2`. A border edge's image runs along the border, so it
-/// crosses where both coarse edge and border have their node, on its right.
-double SurfaceImage::crossing_bound(const FullEdge& edge, CornerId corner, double unnoticed2) const {
-    const glm::dvec3 &u = at(edge.u), &v = at(edge.v);
-    if (edge.right != kNoCorner) {
-        const glm::dvec3 &from = at(mesh_.node(corner)), &to = at(mesh_.head(corner));
-        const double guess2 = squared_distance_of_pair(u, v, from, to);
-        return guess2 <= unnoticed2 ? guess2 : std::min(guess2, squared_segment_distance(u, v, from, to));
+/// Full edges whose images cross a spoke. A border edge's image runs along the border, so it crosses where both coarse edge
+/// and border have their node, on its right.
+void SurfaceImage::note_crossings(CornerId spoke, StarMeasures& out) const {
+    for (uint32_t index : crossers_[canonical(spoke)]) {
+        const FullEdge& edge = edges_[index];
+        if (edge.right != kNoCorner) {
+            out.crossings.push_back({edge.u, edge.v});
+            continue;
+        }
+        for (CornerId letter : edge.word) {
+            if (canonical(letter) == canonical(spoke))
+                out.passings.push_back({mesh_.node(letter), edge.u, edge.v});
+        }
     }
-    double most2 = 0.0;
-    for (CornerId letter : edge.word) {
-        if (canonical(letter) != canonical(corner)) continue;
-        const glm::dvec3 node = at(mesh_.node(letter));
-        most2 = std::max(most2, squared_distance(node, nearest_on_segment(node, u, v)));
-    }
-    return most2;
 }
 
-double SurfaceImage::star_bound() {
-    for (uint32_t index : passers_[p_]) {
-        const FullEdge& edge = edges_[index];
-        const double apart2 = squared_distance(at(p_), nearest_on_segment(at(p_), at(edge.u), at(edge.v)));
-        node_bound_m_[p_] = std::max(node_bound_m_[p_], glm::sqrt(apart2));
-    }
-    double bound = std::max(glm::sqrt(bound2_), node_bound_m_[p_]);
+void SurfaceImage::note_measures(const CollapseStep& step, StarMeasures& out) const {
+    for (uint32_t index : passers_[p_])
+        out.passings.push_back({p_, edges_[index].u, edges_[index].v});
+    out.stars.push_back({step.children, step.position, glm::sqrt(bound2_), owner_m_[p_],
+                         static_cast<uint32_t>(out.passings.size()), 0});
     for (CornerId corner : fan_.corners) {
-        const CornerId mate = mesh_.mate(corner);
-        double most2 = 0.0;
-        if (mate != kNoCorner) {
-            for (uint32_t index : crossers_[canonical(corner)])
-                most2 = std::max(most2, crossing_bound(edges_[index], corner, most2));
-            edge_bound_m_[mate] = glm::sqrt(most2);
-        }
-        edge_bound_m_[corner] = glm::sqrt(most2);
-        const CornerId outer = next_corner(corner);
-        bound = std::max({bound, edge_bound_m_[corner], edge_bound_m_[outer],
-                          node_bound_m_[mesh_.node(outer)], node_bound_m_[mesh_.head(outer)]});
+        const CornerId mate = mesh_.mate(corner), outer = next_corner(corner);
+        if (mate != kNoCorner) note_crossings(corner, out);
+        out.spokes.push_back({corner, mate, outer, mesh_.node(outer), mesh_.head(outer),
+                              static_cast<uint32_t>(out.crossings.size()),
+                              static_cast<uint32_t>(out.passings.size())});
     }
-    return bound;
+    out.stars.back().spokes_end = static_cast<uint32_t>(out.spokes.size());
 }
 
 }  // namespace lod
