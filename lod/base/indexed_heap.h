@@ -4,6 +4,7 @@
 // pops does not depend on the order of pushes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -12,76 +13,74 @@
 
 namespace lod {
 
-/// Key: copyable, with operator<.
+/// Key: copyable, with operator<. Four children a place: a heap half as deep, and those that are compared lie together.
 template <typename Key>
 class IndexedHeap {
   public:
-    explicit IndexedHeap(uint32_t count) : place_(count, kAbsent), keys_(count) {}
+    explicit IndexedHeap(uint32_t count) : place_(count, kAbsent) {}
 
     bool is_empty() const { return heap_.empty(); }
     bool contains(uint32_t index) const { return place_[index] != kAbsent; }
-    const Key& key(uint32_t index) const { return keys_[index]; }
+    /// @param index  that it contains
+    const Key& key(uint32_t index) const { return heap_[place_[index]].key; }
 
     /// The index with the least key.
     uint32_t top() const {
         CHECK(!heap_.empty());
-        return heap_[0];
+        return heap_[0].index;
     }
 
     /// Inserts `index`, or changes its key. O(log n).
     void set(uint32_t index, const Key& key) {
-        keys_[index] = key;
         if (!contains(index)) {
             place_[index] = static_cast<uint32_t>(heap_.size());
-            heap_.push_back(index);
+            heap_.emplace_back();
         }
-        sink(rise(place_[index]));
+        settle(place_[index], {key, index});
     }
 
     /// Takes `index` out if it is there. O(log n).
     void erase(uint32_t index) {
-        const uint32_t place = place_[index];
+        const uint32_t place = std::exchange(place_[index], kAbsent);
         if (place == kAbsent) return;
-        place_[index] = kAbsent;
-        const uint32_t last = heap_.back();
+        const Entry last = heap_.back();
         heap_.pop_back();
-        if (last == index) return;
-        heap_[place] = last;
-        place_[last] = place;
-        sink(rise(place));
+        if (last.index != index) settle(place, last);
     }
 
   private:
-    static constexpr uint32_t kAbsent = 0xffffffffu;
+    static constexpr uint32_t kAbsent = 0xffffffffu, kChildren = 4;
+    struct Entry {
+        Key key{};
+        uint32_t index = 0;
+    };
 
-    bool is_less(uint32_t a, uint32_t b) const { return keys_[heap_[a]] < keys_[heap_[b]]; }
-    void swap(uint32_t a, uint32_t b) {
-        std::swap(heap_[a], heap_[b]);
-        place_[heap_[a]] = a;
-        place_[heap_[b]] = b;
+    void put(uint32_t place, const Entry& entry) {
+        heap_[place] = entry;
+        place_[entry.index] = place;
     }
-    uint32_t rise(uint32_t place) {
-        while (place > 0 && is_less(place, (place - 1) / 2)) {
-            swap(place, (place - 1) / 2);
-            place = (place - 1) / 2;
+    /// Moves what is in the way of an entry, up or down from a place that is free.
+    void settle(uint32_t place, const Entry& entry) {
+        while (place > 0) {
+            const uint32_t parent = (place - 1) / kChildren;
+            if (!(entry.key < heap_[parent].key)) break;
+            put(place, heap_[parent]);
+            place = parent;
         }
-        return place;
-    }
-    void sink(uint32_t place) {
         const auto count = static_cast<uint32_t>(heap_.size());
-        for (;;) {
-            uint32_t least = place;
-            for (uint32_t child = 2 * place + 1; child < count && child <= 2 * place + 2; ++child)
-                least = is_less(child, least) ? child : least;
-            if (least == place) return;
-            swap(place, least);
+        for (uint32_t first = kChildren * place + 1; first < count; first = kChildren * place + 1) {
+            uint32_t least = first;
+            for (uint32_t child = first + 1; child < std::min(first + kChildren, count); ++child)
+                least = heap_[child].key < heap_[least].key ? child : least;
+            if (!(heap_[least].key < entry.key)) break;
+            put(place, heap_[least]);
             place = least;
         }
+        put(place, entry);
     }
 
-    std::vector<uint32_t> heap_;   // indices
+    std::vector<Entry> heap_;
     std::vector<uint32_t> place_;  // [count] in heap_
-    std::vector<Key> keys_;        // [count]
 };
 
 }  // namespace lod

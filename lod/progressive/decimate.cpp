@@ -90,6 +90,7 @@ class Decimator {
     std::vector<uint8_t> is_waiting_;     // [edges] was not safe when its turn came
     std::vector<uint8_t> is_second_try_;  // [edges] its target is a fallback
     std::vector<uint32_t> around_[2];     // scratch
+    std::vector<Edge> old_edges_;         // scratch
 };
 
 Decimator::Decimator(const ManifoldMesh& mesh, const DecimateOptions& options)
@@ -322,15 +323,14 @@ bool Decimator::consider(Edge edge) {
 void Decimator::collapse(Edge edge, const glm::vec3& position) {
     const HalfEdge side = half_edges_.halfedge_handle(edge, 0);
     const auto [a, b] = ends(edge);
-    std::vector<Edge> old_edges;
-    std::vector<Vertex> link;
+    old_edges_.clear();
     const std::array<Vertex, 2> both{a, b};
     for (size_t i = 0; i < 2; ++i) {
         around_[i].clear();
         for (auto it = half_edges_.cvf_iter(both[i]); it.is_valid(); ++it)
             around_[i].push_back(index(*it));
         for (auto it = half_edges_.cve_iter(both[i]); it.is_valid(); ++it)
-            old_edges.push_back(*it);
+            old_edges_.push_back(*it);
     }
     const glm::dvec3 at_a(positions_[index(a)]), along = glm::dvec3(positions_[index(b)]) - at_a;
     const double length2 = glm::dot(along, along);
@@ -343,7 +343,7 @@ void Decimator::collapse(Edge edge, const glm::vec3& position) {
     positions_[index(a)] = position;
     is_locked_[index(a)] = is_locked_[index(a)] | is_locked_[index(b)];
     quadrics_[index(a)] += quadrics_[index(b)];
-    for (const Edge old : old_edges) {
+    for (const Edge old : old_edges_) {
         if (half_edges_.status(old).deleted()) heap_.erase(index(old));
     }
     for (auto it = half_edges_.cve_iter(a); it.is_valid(); ++it)
