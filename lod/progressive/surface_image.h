@@ -160,7 +160,6 @@ class SurfaceImage {
     Fan fan_;
     std::vector<Sector> sectors_;       // of the fan: the new triangles
     std::vector<uint32_t> star_;        // old triangles
-    std::vector<uint32_t> removed_to_;  // [2] per removed triangle: where its vertices go
     std::vector<Member> members_;
     std::vector<CornerId> start_;    // [members] corner of the triangle where each is at first
     std::vector<uint32_t> touched_;  // full edges to rewrite
