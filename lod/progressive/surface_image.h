@@ -158,8 +158,8 @@ class SurfaceImage {
     // The collapse at hand.
     NodeId p_ = 0, centre_ = 0, other_ = 0;
     Fan fan_;
-    std::vector<Sector> sectors_;       // of the fan: the new triangles
-    std::vector<uint32_t> star_;        // old triangles
+    std::vector<Sector> sectors_;  // of the fan: the new triangles
+    std::vector<uint32_t> star_;   // old triangles
     std::vector<Member> members_;
     std::vector<CornerId> start_;    // [members] corner of the triangle where each is at first
     std::vector<uint32_t> touched_;  // full edges to rewrite
