@@ -5,12 +5,14 @@
 
 namespace lod {
 
-/// Letters that a full turn of a vertex round p would add to its edges' words, less those that it would cancel.
+/// Letters that a full turn of a vertex round p would add to its edges' words, less those that it would cancel; where that is not
+/// below 0, perhaps only some of them.
 /// @param is_ccw  the way its edges go round p now
 int SurfaceImage::excess_turns(uint32_t vertex, bool is_ccw) const {
     const auto around = static_cast<int>(fan_.corners.size());
     int added = 0;
-    for (uint32_t i = incident_begin_[vertex]; i < incident_begin_[vertex + 1]; ++i) {
+    for (uint32_t i = incident_begin_[vertex], end = incident_begin_[vertex + 1]; i < end; ++i) {
+        if (added >= around * static_cast<int>(end - i)) break;  // the rest cannot cancel so many
         const FullEdge& edge = edges_[incident_[i]];
         const size_t count = edge.word.size();
         const bool is_tail = edge.u == vertex;
