@@ -8,10 +8,10 @@
 
 namespace lod {
 
-/// A sphere that grows; below 0: nothing yet.
+/// A sphere that grows. Mesh frame, metres.
 struct GrowingSphere {
     glm::dvec3 centre{0.0};
-    double radius = -1.0;
+    double radius = -1.0;  ///< below 0: nothing yet
 };
 
 /// Spheres of nodes, from the leaves up, while errors are still being proved.

@@ -13,14 +13,12 @@ StarBounds::StarBounds(std::span<const glm::vec3> leaves, size_t corner_count)
     : positions_(leaves.begin(), leaves.end()),
       edge_bound_m_(corner_count, 0.0),
       node_bound_m_(leaves.size(), 0.0),
-      errors_m_(leaves.size(), 0.0f) {
+      errors_m_(leaves.size(), 0.0f),
+      noise_m_(noise_m(leaves)) {
     const size_t most_nodes = 2 * leaves.size();  // a collapse makes one of two
     positions_.reserve(most_nodes);
     node_bound_m_.reserve(most_nodes);
     errors_m_.reserve(most_nodes);
-    for (const glm::dvec3& p : positions_)
-        noise_m_ = std::max({noise_m_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    noise_m_ *= 0x1p-40;
 }
 
 /// The squared distance of a full edge from a spoke of the newest node, or more, up to `unnoticed2`.

@@ -2,8 +2,11 @@
 // needs no map and no mesh, and may do it later, on another thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "lod/progressive/vertex_hierarchy.h"
@@ -44,5 +47,15 @@ struct StarMeasures {
 
     void clear() { stars.clear(), spokes.clear(), crossings.clear(), passings.clear(); }
 };
+
+/// 2^-40 of the largest coordinate: places are not known so well, so what is below counts as 0.
+/// @param places  metres, finite
+inline double noise_m(std::span<const glm::vec3> places) {
+    double largest_m = 0.0;
+    for (const glm::vec3& p : places)
+        largest_m =
+            std::max({largest_m, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
+    return largest_m * 0x1p-40;
+}
 
 }  // namespace lod

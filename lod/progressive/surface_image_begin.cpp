@@ -49,9 +49,7 @@ SurfaceImage::SurfaceImage(std::span<const glm::vec3> leaves,
     member_of_.resize(leaf_count_, kNone);
     sector_of_.resize(triangles_.size(), kNone);
     rule_of_.resize(corners, kNone);
-    for (const glm::dvec3& p : positions_)
-        noise_m_ = std::max({noise_m_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    noise_m_ *= 0x1p-40;
+    noise_m_ = noise_m(leaves);
     begin_edges();
     is_touched_.resize(edges_.size(), 0);
     begin_vertices();

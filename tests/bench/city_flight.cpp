@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <vector>
 
+#include "data/file_bytes.h"
 #include "lod/scheduler.h"
 #include "objects/cluster_front.h"
 #include "objects/clustering/cluster_build.h"
@@ -136,10 +136,9 @@ void print(const Way& way, const Figures& f) {
 }
 
 std::optional<objects::ClusterTree> read_tree(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return std::nullopt;
-    const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(file)), {});
-    auto tree = objects::decode_tree(bytes);
+    const auto bytes = data::read_file(path, size_t{4} << 30);
+    if (!bytes) return std::nullopt;
+    auto tree = objects::decode_tree(*bytes);
     if (tree) return std::move(*tree);
     std::fprintf(stderr, "%s: %s\n", path.c_str(), tree.message().c_str());
     return std::nullopt;
@@ -153,8 +152,9 @@ objects::ClusterTree build_tree(const std::string& path) {
     objects::ClusterTree tree = objects::build_cluster_tree(bench::prism_city(), options);
     std::fprintf(stderr, "city: built in %.1f s\n", (now_ms() - begin) / 1e3);
     const std::vector<unsigned char> bytes = objects::encode_tree(tree);
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) std::fprintf(stderr, "%s: cannot keep the tree\n", path.c_str());
     return tree;
 }
 
