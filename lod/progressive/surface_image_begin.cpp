@@ -3,8 +3,6 @@
 // Every vertex is moved a little into one of the triangles around it, its home: sector 0 of its fan. An edge goes along
 // its left triangle; at its ends it turns round the vertices' nodes to reach it, the shorter way. Between two
 // neighbouring edges that turn different ways lies the triangle that owns the node.
-#include <algorithm>
-#include <cmath>
 
 #include "lod/base/check.h"
 #include "lod/progressive/surface_image.h"
