@@ -11,8 +11,6 @@ namespace lod {
 
 namespace {
 
-constexpr double kMargin_px = 1.0 / 64.0;
-constexpr double kDepthSlack = 1e-5;   ///< of a depth: positions are rounded when they are drawn
 constexpr double kLeastRows_px = 3.0;  ///< lower solids are left out: they cover no cell
 constexpr uint64_t kAll = ~uint64_t{0};
 
@@ -77,7 +75,8 @@ uint64_t OcclusionMap::outside_of(int column, int row) const {
     return ~rectangle_bits(0, right, 0, top);
 }
 
-void OcclusionMap::cover(Cell& cell, uint64_t bits, float depth_m, uint64_t outside) {
+void OcclusionMap::cover(int column, int row, uint64_t bits, float depth_m) {
+    Cell& cell = cells_[size_t(row * columns_ + column)];
     if (depth_m >= cell.full_depth_m) return;
     if (bits == kAll) {
         cell.full_depth_m = depth_m;
@@ -88,7 +87,7 @@ void OcclusionMap::cover(Cell& cell, uint64_t bits, float depth_m, uint64_t outs
         if (cell.covered != kAll) return;
         cell.full_depth_m = std::min(cell.full_depth_m, cell.part_depth_m);
     }
-    cell.covered = outside;
+    cell.covered = outside_of(column, row);
     cell.part_depth_m = 0.0f;
 }
 
@@ -116,8 +115,7 @@ void OcclusionMap::fill(int first_row, int last_row, float depth_m) {
                     if (first <= last) bits |= row_bits(first, last) << (8 * y);
                 }
             }
-            if (bits != 0)
-                cover(cells_[size_t(row * columns_ + column)], bits, depth_m, outside_of(column, row));
+            if (bits != 0) cover(column, row, bits, depth_m);
         }
     }
 }
@@ -183,16 +181,19 @@ bool OcclusionMap::hides(std::span<const glm::dvec3> corners_eye) const {
     low = glm::floor(glm::max(low + middle - kMargin_px, glm::dvec2(0.0)));
     high = glm::floor(glm::min(high + middle + kMargin_px, size - 1.0));
     if (!(low.x <= high.x && low.y <= high.y)) return false;
-    const int left = int(low.x), right = int(high.x), bottom = int(low.y), top = int(high.y);
-    const auto depth_m = static_cast<float>(near_m);
+    return hides({int(low.x), int(high.x), int(low.y), int(high.y)}, static_cast<float>(near_m));
+}
+
+bool OcclusionMap::hides(const PixelRectangle& pixels, float nearest_m) const {
+    const auto& [left, right, bottom, top] = pixels;
     for (int row = top / 8; row >= bottom / 8; --row) {  // what stands highest shows first
         for (int column = left / 8; column <= right / 8; ++column) {
             const Cell& cell = cells_[size_t(row * columns_ + column)];
-            if (cell.full_depth_m < depth_m) continue;
+            if (cell.full_depth_m < nearest_m) continue;
             const uint64_t asked =
                 rectangle_bits(std::max(left - 8 * column, 0), std::min(right - 8 * column, 7),
                                std::max(bottom - 8 * row, 0), std::min(top - 8 * row, 7));
-            if ((asked & ~cell.covered) != 0 || cell.part_depth_m >= depth_m) return false;
+            if ((asked & ~cell.covered) != 0 || cell.part_depth_m >= nearest_m) return false;
         }
     }
     return true;

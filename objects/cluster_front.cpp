@@ -19,8 +19,8 @@ bool are_same(std::span<const lod::View> a, std::span<const lod::View> b) {
 
 }  // namespace
 
-ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place, bool looks_through)
-    : tree_(std::move(tree)), place_(place), looks_through_(looks_through), cut_(tree_.clusters.size()) {
+ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place, Hiding hiding)
+    : tree_(std::move(tree)), place_(place), hiding_(hiding), cut_(tree_.clusters.size()) {
     CHECK(!tree_.clusters.empty());
     add(kRootCluster);
 }
@@ -95,7 +95,7 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     const bool is_new_time = time != time_s_;
     const bool is_new_view = !are_same(views, views_);
     // Looking at everything again for what may be hidden by now pays when much has changed.
-    const bool looks_at_all = is_new_view || (!looks_through_ && changes_ > cut_.size() / 8);
+    const bool looks_at_all = is_new_view || (hiding_ != Hiding::kNothing && changes_ > cut_.size() / 8);
     if (!is_new_time && !looks_at_all) return;
     time_s_ = time;
     if (is_new_view) {
@@ -115,7 +115,8 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
         count_triangles(record, 1);
         is_uncovered_ = is_uncovered_ || record.is_occluder;
     }
-    const bool hides_anew = !looks_through_ && (looks_at_all || occlusion_.moves() || is_uncovered_);
+    const bool hides_anew =
+        hiding_ != Hiding::kNothing && (looks_at_all || occlusion_.moves() || is_uncovered_);
     if (hides_anew) cover();
     if (looks_at_all) changes_ = 0;
     uint64_t hidden = 0, seen = 0;

@@ -15,9 +15,9 @@
 // in, forwards, backwards or by a jump. What the eye sees is evaluated anew for the cut alone, some thousands of
 // records whatever the scene holds; when neither eye nor anything else has moved, not at all.
 //
-// What solids hide (cluster_occlusion.h) is neither refined nor drawn. Solids of what was drawn in the frame before hide it;
+// What is drawn comes near to far. What solids hide (cluster_occlusion.h) is neither refined nor drawn. Solids of what was drawn in the frame before hide it;
 // where one of these is refined away in this frame, all that was hidden is looked at again once nothing else is left to
-// do, and before anything is drawn.
+// do, and before anything is drawn. Of what is drawn, triangles that no pixel shows can be left out (cluster_sieve.h).
 //
 // Source: Semenov, Shutkin, Zolotov et al. (2020), section 2 and appendix 1. Differs from it in: a state between
 // frames, a budget, moving clusters.
@@ -29,16 +29,27 @@
 #include "lod/front.h"
 #include "objects/cluster_cut.h"
 #include "objects/cluster_occlusion.h"
+#include "objects/cluster_sieve.h"
 #include "objects/scene_view.h"
 
 namespace objects {
+
+/// What is left out because it is hidden; the picture is always the same.
+enum class Hiding : uint8_t {
+    kNothing,
+    kClusters,   ///< clusters behind solids: not refined either
+    kTriangles,  ///< and of the rest all triangles that no pixel shows; pays before a software rasteriser
+};
 
 class ClusterFront final : public lod::Front {
   public:
     /// @param tree   kept; at least a root
     /// @param place  a rotation, orthonormal, and a finite origin
-    /// @param looks_through  true: nothing hides anything
-    ClusterFront(ClusterTree tree, const ScenePlace& place, bool looks_through = false);
+    ClusterFront(ClusterTree tree, const ScenePlace& place, Hiding hiding = Hiding::kClusters);
+
+    /// Before place(): triangles that may show are written to the pool, which takes room.
+    /// @param threads  look for them; what is found is the same
+    void set_hiding(Hiding hiding, unsigned threads) { hiding_ = hiding, threads_ = threads; }
 
     /// Moves the whole scene; the next frame sees everything anew. @param place  as for the constructor
     void stand_at(const ScenePlace& place);
@@ -84,10 +95,12 @@ class ClusterFront final : public lod::Front {
     uint32_t take_back(ClusterId id);
     void cover();
     void emit_writes(lod::DrawList& out);
+    void line_up(const SceneView& sight);
 
     ClusterTree tree_;
     ScenePlace place_;
-    bool looks_through_;
+    Hiding hiding_;
+    unsigned threads_ = 1;
     ClusterCut cut_;
     ClusterOcclusion occlusion_;
     bool is_uncovered_ = false;  ///< some occluder is no longer drawn
@@ -102,6 +115,13 @@ class ClusterFront final : public lod::Front {
     lod::OperationCounts operations_;
     uint64_t presence_lookups_ = 0, evaluations_ = 0;
     std::vector<ClusterId> stack_, to_open_;
+
+    struct Drawn {
+        float depth_m = 0.0f;  ///< of its sphere's centre
+        ClusterId id = kNoCluster;
+    };
+    std::vector<Drawn> line_;  ///< what emit() draws, near to far
+    ClusterSieve sieve_;
 
     lod::PoolRegion region_;
     bool is_written_ = false;

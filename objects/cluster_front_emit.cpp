@@ -1,5 +1,6 @@
 // What ClusterFront hands to the renderer, and its proof.
 #include <algorithm>
+#include <glm/gtc/matrix_access.hpp>
 
 #include "lod/base/check.h"
 #include "objects/cluster_front.h"
@@ -8,7 +9,9 @@
 namespace objects {
 
 lod::PoolRegion ClusterFront::pool_need() const {
-    return {0, static_cast<uint32_t>(tree_.vertices.size()), 0, static_cast<uint32_t>(tree_.indices.size())};
+    const auto indices = static_cast<uint32_t>(tree_.indices.size());
+    const uint32_t room = hiding_ == Hiding::kTriangles ? ClusterSieve::kRoom : 0;
+    return {0, static_cast<uint32_t>(tree_.vertices.size()), 0, indices + room};
 }
 
 void ClusterFront::place(const lod::PoolRegion& region) {
@@ -24,19 +27,38 @@ void ClusterFront::emit_writes(lod::DrawList& out) {
     is_written_ = true;
 }
 
+/// Near ones first: they hide what comes after them, from the sieve and from the rasteriser's shading.
+void ClusterFront::line_up(const SceneView& sight) {
+    line_.clear();
+    const bool is_only_eye = views_.size() == 1;
+    const glm::dvec3 ahead = -glm::row(sight.eye_from_scene, 2);
+    for (const CutRecord& record : cut_) {
+        if (!record.is_drawn()) continue;
+        const SceneSphere sphere = sphere_at(tree_, tree_.clusters[record.id], time_s_);
+        if (!is_only_eye && !sight_of({&sight, 1}, sphere, 0.0).is_seen) continue;
+        line_.push_back({static_cast<float>(glm::dot(ahead, sphere.centre - sight.eye_scene)), record.id});
+    }
+    std::sort(line_.begin(), line_.end(), [](const Drawn& a, const Drawn& b) {
+        return a.depth_m < b.depth_m || (a.depth_m == b.depth_m && a.id < b.id);
+    });
+}
+
 void ClusterFront::emit(const lod::View& view, lod::DrawList& out) {
     settle();
     emit_writes(out);
-    ClusterItems items(tree_, place_, region_, view, time_s_);
     const SceneView sight(view, place_);
-    const bool is_only_eye = views_.size() == 1;
-    for (const CutRecord& record : cut_) {
-        if (!record.is_drawn()) continue;
-        const Cluster& cluster = tree_.clusters[record.id];
-        if (!is_only_eye && !sight_of({&sight, 1}, sphere_at(tree_, cluster, time_s_), 0.0).is_seen) continue;
-        items.add(record.id, out);
+    line_up(sight);
+    ClusterItems items(tree_, place_, region_, view, time_s_);
+    const ClusterSieve::Scene scene{tree_, region_, view, sight, time_s_};
+    const bool sifts = hiding_ == Hiding::kTriangles;
+    if (sifts) sieve_.begin(view);
+    for (const Drawn& drawn : line_) {
+        const size_t first_item = out.items.size();
+        items.add(drawn.id, out);
+        if (sifts) sieve_.add(scene, tree_.clusters[drawn.id], first_item, out);
     }
     emitted_ = items.triangles();
+    if (sifts) emitted_ -= sieve_.finish(scene, threads_, out);
 }
 
 void ClusterFront::drawn(std::vector<ClusterId>& drawn) const {
@@ -50,7 +72,7 @@ void ClusterFront::drawn(std::vector<ClusterId>& drawn) const {
 
 uint64_t ClusterFront::memory_bytes() const {
     return cut_.memory_bytes() + worst_.memory_bytes() + cheapest_.memory_bytes() +
-           stack_.capacity() * sizeof(ClusterId);
+           stack_.capacity() * sizeof(ClusterId) + line_.capacity() * sizeof(Drawn) + sieve_.memory_bytes();
 }
 
 std::string ClusterFront::validate() const {

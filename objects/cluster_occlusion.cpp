@@ -11,6 +11,8 @@ static_assert(Solid::kMostCorners <= lod::OcclusionMap::kMostCorners);
 
 constexpr size_t kFewestOccluders = 16, kMostOccluders = 128;
 constexpr double kLeastOccluder_px = 6.0;  ///< radius of its sphere: smaller ones hide little
+constexpr uint64_t kSeenPerHidden = 32;    ///< with more, and the fewest occluders, looking does not pay …
+constexpr uint32_t kFramesOfRest = 15;     ///< … for so many frames
 
 }  // namespace
 
@@ -50,6 +52,7 @@ void ClusterOcclusion::begin(const ClusterTree& tree, std::span<const lod::View>
     is_empty_ = true, moves_ = false;
     for (CutRecord& record : records)
         record.is_occluder = false;
+    if (rest_ > 0) return;
     for (size_t eye = 0; eye < sights.size(); ++eye) {
         const SceneView& sight = sights[eye];
         maps_[eye].begin(sight.metric, views[eye].width_px, views[eye].height_px);
@@ -77,6 +80,11 @@ void ClusterOcclusion::begin(const ClusterTree& tree, std::span<const lod::View>
 }
 
 void ClusterOcclusion::learn(uint64_t hidden, uint64_t seen) {
+    if (rest_ > 0) {
+        --rest_;
+        return;
+    }
+    if (most_occluders_ == kFewestOccluders && kSeenPerHidden * hidden < seen) rest_ = kFramesOfRest;
     if (4 * hidden > seen) most_occluders_ = std::min(2 * most_occluders_, kMostOccluders);
     if (8 * hidden < seen) most_occluders_ = std::max(most_occluders_ / 2, kFewestOccluders);
 }
@@ -88,23 +96,7 @@ void ClusterOcclusion::clear() {
 bool ClusterOcclusion::hides(const ClusterTree& tree, size_t eye, const SceneView& sight,
                              const Cluster& cluster, double time_s) const {
     if (is_empty_) return false;
-    // Its own geometry may stick out of the box of what it stands for.
-    const double margin_m = cluster.geometry == kNoGeometry ? 0.0 : double(cluster.error_m);
-    const glm::dvec3 low = glm::dvec3(cluster.box_min) - margin_m,
-                     high = glm::dvec3(cluster.box_max) + margin_m;
-    const bool moves = cluster.motion != kSceneFrame && tree.motions[cluster.motion].size() > 1;
-    const data::ObjectPose pose = moves ? pose_of(tree, cluster, time_s) : data::ObjectPose{};
-    const glm::dmat3 eye_from_box = sight.eye_from_scene * glm::mat3_cast(pose.rotation);
-    const glm::dvec3 first = eye_from_box * low + sight.eye_from_scene * (pose.position - sight.eye_scene);
-    const glm::dvec3 extent = high - low;
-    std::array<glm::dvec3, 8> corners;
-    for (size_t i = 0; i < corners.size(); ++i) {
-        corners[i] = first;
-        for (glm::length_t axis = 0; axis < 3; ++axis) {
-            if ((i >> axis & 1) != 0) corners[i] += eye_from_box[axis] * extent[axis];
-        }
-    }
-    return maps_[eye].hides(corners);
+    return maps_[eye].hides(box_in_eye(tree, cluster, sight, time_s));
 }
 
 }  // namespace objects

@@ -27,8 +27,8 @@ class ClusterOcclusion {
     bool hides(const ClusterTree& tree, size_t eye, const SceneView& sight, const Cluster& cluster,
                double time_s) const;
 
-    /// Says how many of the clusters in view were hidden, so that the next map has more occluders or fewer: they pay in
-    /// streets, hardly from above.
+    /// Says how many of the clusters in view were hidden, so that the next map has more occluders or fewer, or none for some
+    /// frames: they pay in streets, hardly from above.
     void learn(uint64_t hidden, uint64_t seen);
 
     /// Whether some of the occluders move: then what they hide changes with the time.
@@ -45,6 +45,7 @@ class ClusterOcclusion {
     std::vector<lod::OcclusionMap> maps_;  ///< one an eye
     bool is_empty_ = true, moves_ = false;
     size_t most_occluders_ = 64;
+    uint32_t rest_ = 0;             ///< frames in which nothing is asked
     std::vector<Occluder> chosen_;  ///< scratch
 };
 

@@ -23,6 +23,27 @@ SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double ti
     return {pose.position + pose.rotation * own.centre, own.radius_m * (1.0 + 1e-12)};
 }
 
+std::array<glm::dvec3, 8> box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
+                                     double time_s) {
+    // Its own geometry may stick out of the box of what it stands for.
+    const double margin_m = cluster.geometry == kNoGeometry ? 0.0 : double(cluster.error_m);
+    const glm::dvec3 low = glm::dvec3(cluster.box_min) - margin_m,
+                     high = glm::dvec3(cluster.box_max) + margin_m;
+    const bool moves = cluster.motion != kSceneFrame && tree.motions[cluster.motion].size() > 1;
+    const data::ObjectPose pose = moves ? pose_of(tree, cluster, time_s) : data::ObjectPose{};
+    const glm::dmat3 eye_from_box = sight.eye_from_scene * glm::mat3_cast(pose.rotation);
+    const glm::dvec3 first = eye_from_box * low + sight.eye_from_scene * (pose.position - sight.eye_scene);
+    const glm::dvec3 extent = high - low;
+    std::array<glm::dvec3, 8> corners;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = first;
+        for (glm::length_t axis = 0; axis < 3; ++axis) {
+            if ((i >> axis & 1) != 0) corners[i] += eye_from_box[axis] * extent[axis];
+        }
+    }
+    return corners;
+}
+
 ClusterSight sight_of(std::span<const SceneView> views, const SceneSphere& sphere, double error_m) {
     ClusterSight sight;
     for (const SceneView& view : views) {

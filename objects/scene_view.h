@@ -3,6 +3,7 @@
 // DISPLAY (display.h) and the front (cluster_front.h) both see through it, so that they agree to the bit.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "data/scene_time.h"
@@ -35,6 +36,10 @@ struct SceneSphere {
 /// Where a cluster is at a time: its own sphere, or where its motion has carried it.
 /// Cost: that of one binary search and an arc for a cluster that moves, else none.
 SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double time_s);
+
+/// Corners of a box, in the eye frame, that holds all that a cluster may draw or stand for at a time.
+std::array<glm::dvec3, 8> box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
+                                     double time_s);
 
 /// What an eye, or the best placed of several, sees of a sphere.
 struct ClusterSight {

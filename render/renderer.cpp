@@ -6,6 +6,7 @@
 
 #include "render/drawn_triangles.h"
 #include "render/egl_context.h"
+#include "render/freed_memory.h"
 #include "render/geometry_pool.h"
 #include "render/ground_texture.h"
 #include "render/indirect_pass.h"
@@ -91,6 +92,7 @@ lod::Result<Renderer> Renderer::create(const RendererOptions& options) {
         state->egl.emplace(std::move(*egl));
     }
     if (auto driver = check_driver(); !driver) return driver.error();
+    if (is_software_rasteriser(device_name())) keep_freed_memory();
 
     auto target = make_target(options.width_px, options.height_px);
     if (!target) return target.error();
@@ -116,10 +118,14 @@ std::string Renderer::device() const {
     return device_name();
 }
 
+bool Renderer::is_software() const {
+    return is_software_rasteriser(device_name());
+}
+
 lod::Result<lod::Ok> Renderer::set_ground_texture(int width, int height, std::span<const uint8_t> rgba,
                                                   int grid_width, int grid_height, double lead) {
     CHECK(grid_width > 0 && grid_height > 0);
-    auto texture = make_ground_texture(width, height, rgba, is_software_rasteriser(device_name()));
+    auto texture = make_ground_texture(width, height, rgba, is_software());
     if (!texture) return texture.error();
     state_->textures.ground = std::move(*texture);
     state_->has_textures = true;
@@ -138,7 +144,7 @@ void Renderer::write_ground_texels(std::span<const TexelPatch> patches) {
 void Renderer::set_detail(const SurfaceDetail& detail) {
     state_->in_flight.wait();
     state_->ground.detail = detail;
-    state_->textures.patterns = make_patterns(detail, is_software_rasteriser(device_name()));
+    state_->textures.patterns = make_patterns(detail, is_software());
     state_->has_textures = true;
     ++state_->allocations_since_draw;
 }
@@ -177,7 +183,7 @@ void Renderer::draw(const lod::View& view, const lod::DrawList& list, const Atmo
     glBindFramebuffer(GL_FRAMEBUFFER, state.target.framebuffer.id());
     glViewport(0, 0, state.target.width_px, state.target.height_px);
     const bool has_air = atmosphere.draw_sky || std::isfinite(atmosphere.visibility_m);
-    submit(state.pool, state.textures, {state.has_textures, has_air}, state.pass);
+    submit(state.pool, state.textures, {state.has_textures, has_air, state.pass.has_glass}, state.pass);
     state.in_flight.place();
 
     state.drawn_near_m = view.near_m;

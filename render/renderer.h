@@ -96,6 +96,8 @@ class Renderer {
 
     /// The driver's name, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string device() const;
+    /// Whether processors do the work of a GPU here.
+    bool is_software() const;
 
     /// Colour of the ground, row-major from the north-west; mipmapped. Alpha says how much of its fine structure
     /// shows (set_detail). Texel centres sit on samples when the

@@ -106,6 +106,11 @@ void add_clusters_build(CLI::App& app, ClustersBuildArguments& arguments) {
         ->check(CLI::Range(0u, 64u))
         ->type_name("L")
         ->capture_default_str();
+    app.add_option("--levels-per-doubling", arguments.options.levels_per_doubling,
+                   "unless --levels is given; more: draws less, builds longer, a larger file")
+        ->check(CLI::Range(1u, 8u))
+        ->type_name("N")
+        ->capture_default_str();
     app.add_flag("--linear", arguments.options.is_linear,
                  "cluster sizes grow evenly from level to level, instead of doubling");
     app.add_option("--error-share", arguments.options.error_share,

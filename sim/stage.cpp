@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "lod/base/hash.h"
 #include "sim/progress.h"
@@ -156,6 +157,10 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
     stage.members = fronts_of(*stage.world);
     for (const WorldFront& member : stage.members)
         stage.fronts.push_back(member.front);
+    if (stage.renderer.is_software()) {
+        for (const auto& site : stage.world->sites)
+            site->set_hiding(objects::Hiding::kTriangles, std::max(std::thread::hardware_concurrency(), 1u));
+    }
     if (auto pool = stage.renderer.resize_pool(share_out(stage)); !pool) return pool.error();
     stage.operations_before = all_operations(stage);
     const data::Image& colours = stage.world->ground_colours;

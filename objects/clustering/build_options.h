@@ -11,10 +11,11 @@ struct BuildOptions {
     uint32_t levels =
         0;  ///< L, all of which merge; 0: as many as lie between the objects' and the scene's size
     bool is_linear = false;  ///< w(l) = (l/L) W as in the source; else w doubles from level to level up to W
-    uint32_t fine_levels =
-        4;  ///< unless L is given: the first of them, on which objects only get reduced parents
-    uint32_t levels_per_doubling = 2;  ///< … of which one merges, the others only reduce
-    double error_share = 0.01;         ///< epsilon(l) = error_share * w(l)
+    uint32_t fine_doublings =
+        2;  ///< unless L is given: of w on the first levels, where objects only get reduced parents
+    uint32_t levels_per_doubling =
+        2;  ///< … of which one merges, the others only reduce; more: fewer faces, slower, larger
+    double error_share = 0.01;  ///< epsilon(l) = error_share * w(l)
     double spent_share = 0.25;  ///< of epsilon(l): what is off by more is no source; more: faster, more faces
     double gamma_share = 0.25;  ///< gamma(L) = gamma_share; gamma(l) is in proportion to w(l)
     uint32_t most_children = 16;
@@ -24,9 +25,14 @@ struct BuildOptions {
     unsigned threads = 1;
 };
 
+/// Levels on which nothing is merged yet.
+inline uint32_t fine_levels(const BuildOptions& options) {
+    return options.fine_doublings * options.levels_per_doubling;
+}
+
 /// Whether clusters of a level may be merged, or only be reduced each by itself.
 inline bool merges(const BuildOptions& options, uint32_t level) {
-    return level > options.fine_levels &&
+    return level > fine_levels(options) &&
            (level > options.levels || (options.levels - level) % options.levels_per_doubling == 0);
 }
 

@@ -48,7 +48,7 @@ void settle_levels(Draft& draft) {
     draft.size_m = std::max({glm::length(high - low), largest, 1e-6});
     BuildOptions& options = draft.options;
     if (options.levels > 0) {
-        options.fine_levels = 0;
+        options.fine_doublings = 0;
         options.levels_per_doubling = 1;
         return;
     }
@@ -56,7 +56,8 @@ void settle_levels(Draft& draft) {
     const double first_m = kFirstSizes * usual;
     const double doublings =
         std::clamp(std::ceil(std::log2(draft.size_m / first_m)), 0.0, double(kMostLevels - 1));
-    options.levels = options.fine_levels + options.levels_per_doubling * static_cast<uint32_t>(doublings) + 1;
+    options.levels =
+        fine_levels(options) + options.levels_per_doubling * static_cast<uint32_t>(doublings) + 1;
     draft.size_m = std::max(draft.size_m, std::exp2(doublings) * first_m);
 }
 

@@ -1,6 +1,7 @@
 #include "objects/clustering/draft.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <unordered_map>
 
@@ -15,8 +16,9 @@ namespace objects {
 
 namespace {
 
-constexpr size_t kFewestFaces = 4;        ///< meshes with fewer are not reduced by themselves
-constexpr double kWorthwhileShare = 0.7;  ///< a rung has at most so many of the finer one's faces
+constexpr size_t kFewestFaces = 4;  ///< meshes with fewer are not reduced by themselves
+constexpr double kWorthwhileShare =
+    0.49;  ///< a rung has at most so many of the faces of one with half the error
 
 FaceSoup soup_of(const data::TimedMesh& mesh) {
     FaceSoup soup;
@@ -202,6 +204,7 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
         if (rungs.empty() || rungs.back().level < level) missing.push_back(mesh);
     }
     const double limit_m = draft.at(level).error_m;
+    const double most_share = std::pow(kWorthwhileShare, 1.0 / draft.options.levels_per_doubling);
     std::vector<MeshRung> made(missing.size());
     for_each_item(missing.size(), draft.options.threads, [&](size_t i) {
         const DraftMesh& mesh = draft.meshes[missing[i]];
@@ -216,7 +219,7 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
         const size_t before = finer != nullptr ? finer->soup.faces.size() : mesh.soup.faces.size();
         const size_t after = made[i].soup.faces.size();
         const bool is_worth_it =
-            after > 0 && static_cast<double>(after) <= kWorthwhileShare * static_cast<double>(before);
+            after > 0 && static_cast<double>(after) <= most_share * static_cast<double>(before);
         if (is_worth_it)
             made[i].geometry = draft.pool.add(draw_soup(made[i].soup));
         else

@@ -12,7 +12,8 @@ namespace objects {
 
 namespace {
 
-constexpr double kCreaseCos = 0.86;  ///< faces within 30 degrees look like one bent surface
+constexpr double kCreaseCos = 0.86;          ///< faces within 30 degrees look like one bent surface
+constexpr uint32_t kUnplaced = 0xffffffffu;  ///< no triangle has used the vertex so far
 
 lod::Material material_of(uint8_t alpha) {
     return alpha < 255 ? lod::Material::kGlass : lod::Material::kPaint;
@@ -72,10 +73,30 @@ glm::vec3 bent_normal(const std::vector<glm::dvec3>& cross, std::span<const uint
     return glm::vec3(sum / std::sqrt(glm::dot(sum, sum)));
 }
 
+/// Vertices in the order of their first use, so that a range of triangles has its own; what no triangle uses goes.
+void sort_vertices(DrawnGeometry& drawn) {
+    std::vector<uint32_t> place(drawn.vertices.size(), kUnplaced);
+    std::vector<lod::Vertex> sorted;
+    sorted.reserve(drawn.vertices.size());
+    for (uint32_t& index : drawn.indices) {
+        if (place[index] == kUnplaced) {
+            place[index] = static_cast<uint32_t>(sorted.size());
+            sorted.push_back(drawn.vertices[index]);
+        }
+        index = place[index];
+    }
+    drawn.vertices = std::move(sorted);
+    for (Solid& solid : drawn.facings.solids) {
+        for (uint32_t i = 0; i < solid.corner_count; ++i)
+            solid.corners[i] = place[solid.corners[i]];
+    }
+}
+
 /// Puts what is not glass into the order of where it looks.
-void settle_facings(DrawnGeometry& drawn) {
+void settle_order(DrawnGeometry& drawn) {
     const size_t opaque = drawn.indices.size() - drawn.glass_index_count;
     drawn.facings = sort_by_facing(drawn.vertices, std::span(drawn.indices).first(opaque));
+    sort_vertices(drawn);
 }
 
 }  // namespace
@@ -100,7 +121,7 @@ DrawnGeometry draw_mesh(const data::TimedMesh& mesh) {
             if (glass) drawn.glass_index_count += 3;
         }
     }
-    settle_facings(drawn);
+    settle_order(drawn);
     return drawn;
 }
 
@@ -134,7 +155,7 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
             if (glass) drawn.glass_index_count += 3;
         }
     }
-    settle_facings(drawn);
+    settle_order(drawn);
     return drawn;
 }
 

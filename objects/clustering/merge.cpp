@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastShare = 0.05;  ///< of a level's error: with less left, geometry is joined as it is
 constexpr double kWorthwhileShare =
-    0.8;  ///< of its faces that a cluster alone may keep in a parent of its own
+    0.64;  ///< of its faces that a cluster alone may keep for each doubling of the error a parent has
 constexpr size_t kFewestFacesAlone = 12;  ///< what stands alone with fewer is not reduced
 constexpr size_t kGroupsAtOnce = 256;     ///< so many finished clusters wait at most to be put into the draft
 constexpr double kMostSizes = 2.0;        ///< of w(l), beyond which nothing alone is reduced
@@ -223,6 +223,7 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
     std::sort(meshes.begin(), meshes.end());
     meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
     make_rungs(draft, meshes, level);
+    const double most_share = std::pow(kWorthwhileShare, 1.0 / draft.options.levels_per_doubling);
     std::vector<Merged> merged(alone.size());
     for_each_item(alone.size(), draft.options.threads, [&](size_t i) {
         const DraftCluster& child = draft.clusters[alone[i]];
@@ -247,7 +248,7 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
         } else {
             const size_t before = draft.soups[child.soup].faces.size();
             const double after = static_cast<double>(merged[i].soup.faces.size());
-            if (after == 0.0 || after > kWorthwhileShare * static_cast<double>(before)) continue;
+            if (after == 0.0 || after > most_share * static_cast<double>(before)) continue;
             parent = merged[i].cluster;
             parent.geometry = draft.pool.add(merged[i].drawn);
             parent.soup = static_cast<uint32_t>(draft.soups.size());

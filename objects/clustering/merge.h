@@ -17,7 +17,7 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
                                    uint32_t level, data::MotionClass motion_class,
                                    std::vector<uint32_t>& released);
 
-/// Puts a reduced parent over each cluster that stands alone where that saves at least half of its faces.
+/// Puts a reduced parent over each cluster that stands alone where that saves enough of its faces.
 /// @returns  for each of `alone` itself or its new parent
 std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone, uint32_t level);
 

@@ -1,9 +1,10 @@
 // Frames of the city of prism_city.h under a bound: an overview from a circle, a flight above the roofs, a drive through a
-// street; whole frames, waited for. A line each; city_compare.py sets them beside other programs'.
+// street; whole frames, waited for. A line each, or of one (over, fly, drive); city_compare.py sets them beside other
+// programs'.
 //
-//     city_flight TREE.hdlod [TOLERANCE_PX [FRAMES [SUFFIX.png]]]
+//     city_flight TREE.hdlod [TOLERANCE_PX [FRAMES [WAY [SUFFIX.png]]]]
 //
-// The tree is read from the file, or built and kept there, which takes a quarter of an hour of processors.
+// The tree is read from the file, or built and kept there, which takes half an hour of processors.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -78,10 +79,9 @@ struct Figures {
 
 class City {
   public:
-    City(objects::ClusterTree tree, render::Renderer renderer, double tolerance_px)
-        : front_(std::move(tree), {}), renderer_(std::move(renderer)) {
+    City(objects::ClusterFront& front, render::Renderer renderer, double tolerance_px)
+        : front_(front), renderer_(std::move(renderer)) {
         budget_.tolerance_px = tolerance_px;
-        front_.place(front_.pool_need());
         air_.clear_colour = {0.5f, 0.6f, 0.8f};
         air_.sun_world = glm::normalize(glm::dvec3(0.5, 0.3, 0.81));
     }
@@ -120,7 +120,7 @@ class City {
         renderer_.finish();
     }
 
-    objects::ClusterFront front_;
+    objects::ClusterFront& front_;
     render::Renderer renderer_;
     lod::Budget budget_;
     lod::DrawList list_;
@@ -148,6 +148,7 @@ objects::ClusterTree build_tree(const std::string& path) {
     objects::BuildOptions options;
     options.threads = 2;
     options.spent_share = 0.06;  // no two prisms are alike: what is nearly exact pays
+    options.levels_per_doubling = 4;
     const double begin = now_ms();
     objects::ClusterTree tree = objects::build_cluster_tree(bench::prism_city(), options);
     std::fprintf(stderr, "city: built in %.1f s\n", (now_ms() - begin) / 1e3);
@@ -167,22 +168,26 @@ int main(int count, char** words) {
     }
     const double tolerance_px = count > 2 ? std::atof(words[2]) : 2.0;
     const int frames = count > 3 ? std::max(std::atoi(words[3]), 1) : 60;
-    const std::string picture = count > 4 ? words[4] : "";
+    const std::string only = count > 4 ? words[4] : "all", picture = count > 5 ? words[5] : "";
     std::optional<objects::ClusterTree> known = read_tree(words[1]);
     objects::ClusterTree tree = known ? std::move(*known) : build_tree(words[1]);
     std::fprintf(stderr, "city: %u objects in %zu clusters\n", tree.object_count, tree.clusters.size());
     render::RendererOptions rendering;
     rendering.width_px = kWidth_px;
     rendering.height_px = kHeight_px;
-    rendering.pool = {static_cast<uint32_t>(tree.vertices.size()), static_cast<uint32_t>(tree.indices.size()),
-                      2 * tree.object_count + 64};
+    objects::ClusterFront front(std::move(tree), {});
+    front.set_hiding(objects::Hiding::kTriangles, 2);
+    const lod::PoolRegion need = front.pool_need();
+    front.place(need);
+    rendering.pool = {need.vertex_capacity, need.index_capacity, 2 * front.tree().object_count + 64};
     auto renderer = render::Renderer::create(rendering);
     if (!renderer) {
         std::fprintf(stderr, "%s\n", renderer.message().c_str());
         return 1;
     }
-    City city(std::move(tree), std::move(*renderer), tolerance_px);
+    City city(front, std::move(*renderer), tolerance_px);
     for (const Way& way : kWays) {
+        if (only != "all" && only != way.name) continue;
         print(way, city.fly(way, frames));
         if (!picture.empty()) (void)render::write_png(std::string(way.name) + picture, city.picture());
     }

@@ -53,7 +53,7 @@ TEST(ClusterScaling, WorkOnATowerIsNLogN) {
 /// none for single objects. Counted: 0.91 nodes, 6.6 steps, 4.0 faces at the most.
 TEST(ClusterScaling, WorkWithoutOrderIsNLogN) {
     expect_n_log_n(SceneFamily::kScattered,
-                   {.fine_levels = 0, .levels_per_doubling = 1, .error_share = 0.0, .threads = 2},
+                   {.fine_doublings = 0, .levels_per_doubling = 1, .error_share = 0.0, .threads = 2},
                    {.nodes = 1.1, .steps = 7.5, .faces = 4.5});
 }
 

@@ -1,8 +1,10 @@
 #include "render/renderer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 
 #include "lod/base/rng.h"
@@ -129,6 +131,37 @@ TEST_F(RendererTest, OneDrawCallAndNoAllocationOnceWarm) {
         EXPECT_EQ(renderer.stats().commands, 7u) << "six triangles and the sky";
         EXPECT_GE(renderer.stats().upload_bytes, 18 * (32 + 4) + 7 * 20 + 112u);
     }
+}
+
+/// Pages that this process had to have mapped so far.
+long page_faults() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+}
+
+/// What a frame allocates and frees is not handed back to the system each time, to be cleared and mapped anew in the next.
+TEST_F(RendererTest, AWarmFrameFaultsHardlyAPage) {
+    RENDERER_OR_SKIP(renderer, 640, 360);
+    const lod::View view = view_of_size(640, 360);
+    Scene scene;
+    lod::Rng rng(3);
+    for (int i = 0; i < 30'000; ++i) {
+        const glm::dvec2 at(rng.between(-320.0, 316.0), rng.between(-180.0, 176.0));
+        add_quad(rectangle(view, at, at + 4.0, rng.between(2.0, 9.0)), {}, scene);
+    }
+    scene.list.items = {{.index_count = 180'000}};
+    ASSERT_TRUE(renderer.resize_pool({.vertices = 180'000, .indices = 180'000, .commands = 64}));
+    for (size_t i = 0; i < scene.indices.size(); ++i)
+        scene.indices[i] = static_cast<uint32_t>(i);
+    for (int frame = 0; frame < 3; ++frame)
+        draw(view, vacuum(), scene, renderer);
+    const long before = page_faults();
+    for (int frame = 0; frame < 10; ++frame)
+        draw(view, vacuum(), scene, renderer);
+    const long faults = page_faults() - before;
+    std::printf("%ld page faults in ten frames\n", faults);
+    EXPECT_LT(faults, 500);
 }
 
 TEST_F(RendererTest, GrowsForMoreItemsThanPromisedAndCountsIt) {

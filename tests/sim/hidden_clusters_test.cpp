@@ -18,7 +18,9 @@ constexpr int kColumns = 24;
 
 /// The middle of a front's picture-making: one frame, to its end.
 struct Artist {
-    Artist(objects::ClusterTree tree, bool looks_through) : front(std::move(tree), {}, looks_through) {}
+    Artist(objects::ClusterTree tree, objects::Hiding hiding) : front(std::move(tree), {}) {
+        front.set_hiding(hiding, 2);
+    }
 
     void adapt(const lod::View& view, double time_s, double tolerance_px) {
         lod::Front* const fronts[] = {&front};
@@ -38,21 +40,22 @@ struct Artist {
     lod::DrawList list;
 };
 
-/// Each front has its own renderer, as both write the pool once.
-render::Renderer make_renderer(const objects::ClusterTree& tree, const lod::View& view) {
+render::Renderer make_renderer(const objects::ClusterFront& front, const lod::View& view) {
     render::RendererOptions options;
     options.width_px = view.width_px;
     options.height_px = view.height_px;
-    options.pool = {static_cast<uint32_t>(tree.vertices.size()), static_cast<uint32_t>(tree.indices.size()),
-                    4 * tree.object_count + 64};
+    const lod::PoolRegion need = front.pool_need();
+    options.pool = {need.vertex_capacity, need.index_capacity, 4 * front.tree().object_count + 64};
     auto renderer = render::Renderer::create(options);
     EXPECT_TRUE(renderer) << renderer.message();
     return std::move(*renderer);
 }
 
-/// What both fronts drew over some frames.
+/// What fronts drew over some frames.
 struct Tally {
-    uint64_t triangles = 0, drawn_triangles = 0;
+    uint64_t triangles = 0;          ///< nothing hidden
+    uint64_t drawn_triangles = 0;    ///< without hidden clusters
+    uint64_t showing_triangles = 0;  ///< without hidden triangles
     size_t frames_that_differ = 0;
 };
 
@@ -61,29 +64,33 @@ struct Moment {
     double time_s = 0.0;
 };
 
-/// Draws each moment with everything and without what is hidden.
+/// Draws each moment with everything and without what is hidden, cluster by cluster and triangle by triangle.
 Tally compare(const objects::ClusterTree& tree, const std::vector<Moment>& moments, double tolerance_px) {
-    Artist all(tree, true), some(tree, false);
-    render::Renderer canvas = make_renderer(tree, moments[0].view);
+    using objects::Hiding;
+    Artist all(tree, Hiding::kNothing), some(tree, Hiding::kClusters), few(tree, Hiding::kTriangles);
+    render::Renderer canvas = make_renderer(few.front, moments[0].view);
     Tally tally;
     for (size_t i = 0; i < moments.size(); ++i) {
         SCOPED_TRACE(i);
         const auto& [view, time_s] = moments[i];
-        std::vector<uint8_t> pictures[2];
-        for (Artist* artist : {&all, &some}) {
+        std::vector<uint8_t> everything;
+        for (Artist* artist : {&all, &some, &few}) {
             artist->adapt(view, time_s, tolerance_px);
-            artist->front.place(artist->front.pool_need());  // the other one has written the pool
+            artist->front.place(artist->front.pool_need());  // another one has written the pool
             artist->draw(view, canvas);
-            pictures[artist == &some] = canvas.read_colour().rgba;
+            const std::vector<uint8_t> picture = canvas.read_colour().rgba;
+            if (artist == &all) everything = picture;
+            tally.frames_that_differ += picture != everything;
         }
-        tally.frames_that_differ += pictures[0] != pictures[1];
         EXPECT_EQ(some.front.validate(), "");
         EXPECT_LE(some.front.error_px(), tolerance_px);
         if (i == 0) continue;  // nothing has been drawn that could hide anything
         tally.triangles += all.front.emitted_triangles();
         tally.drawn_triangles += some.front.emitted_triangles();
+        tally.showing_triangles += few.front.emitted_triangles();
     }
-    std::printf("%lu triangles, %lu of them not hidden\n", tally.triangles, tally.drawn_triangles);
+    std::printf("%lu triangles, %lu of them not in hidden clusters, %lu may show\n", tally.triangles,
+                tally.drawn_triangles, tally.showing_triangles);
     return tally;
 }
 
@@ -110,6 +117,7 @@ TEST(HiddenClusters, ADrivePastHousesLooksTheSameAndDrawsAFraction) {
         const Tally tally = compare(tree, moments, tolerance_px);
         EXPECT_EQ(tally.frames_that_differ, 0u);
         EXPECT_LT(tally.drawn_triangles, tolerance_px > 2.0 ? tally.triangles : tally.triangles / 2);
+        EXPECT_LT(tally.showing_triangles, tally.drawn_triangles / 2);
     }
 }
 
