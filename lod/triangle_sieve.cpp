@@ -59,7 +59,7 @@ void TriangleSieve::sift(std::span<const Vertex> vertices, std::span<const uint3
         const Float4 a = corner(i), b = corner(i + 1), c = corner(i + 2);
         const Float4 low = min(min(a, b), c), high = max(max(a, b), c);
         if (low[2] < 0.0f) {  // reaches the eye
-            shows[i / 3] |= is_leftmost;
+            if (is_leftmost) shows[i / 3] = 1;
             continue;
         }
         if (!own_.hold(0.5f * (low[0] + high[0]))) continue;

@@ -15,7 +15,8 @@ lod::PoolRegion ClusterFront::pool_need() const {
 }
 
 void ClusterFront::place(const lod::PoolRegion& region) {
-    CHECK(region.vertex_capacity >= tree_.vertices.size() && region.index_capacity >= tree_.indices.size());
+    const lod::PoolRegion need = pool_need();
+    CHECK(region.vertex_capacity >= need.vertex_capacity && region.index_capacity >= need.index_capacity);
     region_ = region;
     is_written_ = false;
 }

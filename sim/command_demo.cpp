@@ -124,13 +124,13 @@ lod::Result<lod::Ok> run_demo(const DemoArguments& arguments) {
     std::unique_ptr<World> flown;
     lod::Result<Flight> flight = lod::Error{};
     {
-        auto stage = make_stage(std::move(*world), kFlightOptics, false);
+        auto stage = make_stage(std::move(*world), kFlightOptics, {.draws_frames = true});
         if (!stage) return stage.error();
         flight = fly(*stage, *file, arguments.schedule);
         flown = std::move(stage->world);
     }  // one renderer at a time
     if (!flight) return flight.error();
-    auto stage = make_stage(std::move(flown), kStillOptics, false);
+    auto stage = make_stage(std::move(flown), kStillOptics, {});
     if (!stage) return stage.error();
     const fs::path out(arguments.out);
     const double seek_s = schedule_s(schedule_at_begin(arguments.schedule, flight->begin_s),

@@ -150,7 +150,8 @@ lod::Result<lod::Ok> run_fly(const FlyArguments& arguments) {
     options.schedule_end_s = schedule_end_s(**world);
 
     const Optics optics{scene->start.fov_y_rad, arguments.size.width_px, arguments.size.height_px};
-    auto stage = make_stage(std::move(*world), optics, arguments.window);
+    auto stage =
+        make_stage(std::move(*world), optics, {.has_window = arguments.window, .draws_frames = true});
     if (!stage) return stage.error();
     stage->world->ground_colours = {};  // the renderer has them
     const auto frames = run_loop(*stage, options, picture_taker(arguments));

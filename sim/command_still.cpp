@@ -130,7 +130,7 @@ lod::Result<lod::Ok> run_still(const StillArguments& arguments) {
 
     const double fov_rad = arguments.fov_deg ? *arguments.fov_deg * kRadPerDeg : scene->start.fov_y_rad;
     const Optics optics{fov_rad, arguments.size.width_px, arguments.size.height_px};
-    auto stage = make_stage(std::move(*world), optics, false);
+    auto stage = make_stage(std::move(*world), optics, {});
     if (!stage) return stage.error();
     Shot shot;
     shot.time_s = shot.schedule_s = shot.shown_s = still_time_s(arguments, *scene);

@@ -144,11 +144,11 @@ lod::Result<lod::Ok> emit_all(Stage& stage, const lod::View& view) {
 
 }  // namespace
 
-lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, bool window) {
+lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, const StageUse& use) {
     render::RendererOptions options;
     options.width_px = optics.width_px;
     options.height_px = optics.height_px;
-    options.window = window;
+    options.window = use.has_window;
     options.window_title = "Harrier: " + world->scene.name;
     options.pool = {1, 3, 16};  // until the fronts are placed
     auto renderer = render::Renderer::create(options);
@@ -157,9 +157,10 @@ lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics
     stage.members = fronts_of(*stage.world);
     for (const WorldFront& member : stage.members)
         stage.fronts.push_back(member.front);
-    if (stage.renderer.is_software()) {
-        for (const auto& site : stage.world->sites)
-            site->set_hiding(objects::Hiding::kTriangles, std::max(std::thread::hardware_concurrency(), 1u));
+    const bool sifts = use.draws_frames && stage.renderer.is_software();
+    for (const auto& site : stage.world->sites) {
+        site->set_hiding(sifts ? objects::Hiding::kTriangles : objects::Hiding::kClusters,
+                         std::max(std::thread::hardware_concurrency(), 1u));
     }
     if (auto pool = stage.renderer.resize_pool(share_out(stage)); !pool) return pool.error();
     stage.operations_before = all_operations(stage);

@@ -58,8 +58,14 @@ struct Stage {
     lod::OperationCounts operations_before;
 };
 
+/// What a stage is for.
+struct StageUse {
+    bool has_window = false;
+    bool draws_frames = false;  ///< time counts: what no pixel shows is left out where that saves some
+};
+
 /// Makes the renderer with a pool that holds what the fronts say they need now, and hands it the ground's colours.
-lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, bool window);
+lod::Result<Stage> make_stage(std::unique_ptr<World> world, const Optics& optics, const StageUse& use);
 
 /// The world's ground at a time, and the renderer's colours of it. make_frame does this itself; whoever asks the
 /// ground before, as paths over it do, does it first.

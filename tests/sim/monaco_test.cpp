@@ -130,7 +130,7 @@ TEST(Monaco, WallsMeetTheRenderedGround) {
     sim::Optics optics;
     optics.width_px = 1280;
     optics.height_px = 720;
-    auto stage = sim::make_stage(std::move(*world), optics, false);
+    auto stage = sim::make_stage(std::move(*world), optics, {});
     if (!stage) GTEST_SKIP() << stage.message();
 
     terrain_test::PoolTwin pool;
