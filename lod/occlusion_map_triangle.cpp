@@ -59,11 +59,11 @@ struct FourSpans {
 };
 
 /// Pixels inside of all eight rows, and those inside of any.
-struct Columns {
+struct Reach {
     float first_of_all = 0.0f, end_of_all = 0.0f;
     float first_of_any = 0.0f, end_of_any = 0.0f;
 };
-Columns columns_of(const FourSpans (&spans)[2]) {
+Reach reach_of(const FourSpans (&spans)[2]) {
     const Float4 latest = max(spans[0].first, spans[1].first), soonest = min(spans[0].end, spans[1].end),
                  least = min(spans[0].first, spans[1].first), most = max(spans[0].end, spans[1].end);
     return {.first_of_all = std::max({latest[0], latest[1], latest[2], latest[3]}),
@@ -119,15 +119,15 @@ void OcclusionMap::add_triangle(const std::array<PicturePoint, 3>& corners) {
                 is_in ? __builtin_convertvector(__builtin_convertvector(end, Int4), Float4) : none;
         }
         const size_t first_cell = size_t(cell_row) * size_t(columns_);
-        const Columns columns = first_column + 2 < last_column
-                                    ? columns_of(spans)
-                                    : Columns{kNoLimit_px, 0.0f, leftmost, rightmost + 1.0f};
-        const int last_of_row = std::min(last_column, static_cast<int>(columns.end_of_any - 1.0f) / 8);
-        for (int column = std::max(first_column, static_cast<int>(columns.first_of_any) / 8);
+        const Reach reach = first_column + 2 < last_column
+                                ? reach_of(spans)
+                                : Reach{kNoLimit_px, 0.0f, leftmost, rightmost + 1.0f};
+        const int last_of_row = std::min(last_column, static_cast<int>(reach.end_of_any - 1.0f) / 8);
+        for (int column = std::max(first_column, static_cast<int>(reach.first_of_any) / 8);
              column <= last_of_row; ++column) {
             if (depth_m >= cells_[first_cell + size_t(column)].full_depth_m) continue;
             const auto x = static_cast<float>(8 * column);
-            const bool is_full = x >= columns.first_of_all && x + 8.0f <= columns.end_of_all;
+            const bool is_full = x >= reach.first_of_all && x + 8.0f <= reach.end_of_all;
             const uint64_t bits =
                 is_full ? ~uint64_t{0} : bytes_of(spans[0].bits_from(splat(x)), spans[1].bits_from(splat(x)));
             if (bits != 0) cover(column, cell_row, bits, depth_m);
