@@ -1,7 +1,7 @@
 // OcclusionMap: which pixels of a picture are covered by convex solids and triangles, and how far away these are at the
 // most: what lies behind them as a whole need neither be refined nor drawn.
 //
-//     cell   8 x 8 pixels:   covered  a bit a pixel, by the solids so far       part_depth  the farthest of these
+//     cell   8 x 8 pixels:   covered  a bit a pixel, by what came so far       part_depth  the farthest of these
 //                            full_depth  the nearest depth in front of which all 64 are known to be covered
 //
 // A pixel counts as covered when its centre lies inside the outline of one of them, a 64th of a pixel from its edge at
@@ -52,8 +52,8 @@ class OcclusionMap {
     /// are left out. Cost: as above, 40 ns at least.
     void add_triangle(const std::array<PicturePoint, 3>& corners);
 
-    /// Whether all that was added covers every pixel that the hull of some points may touch, all of them nearer. Never of what reaches
-    /// through the near plane or lies outside the picture.
+    /// Whether all that was added covers every pixel that the hull of some points may touch, all of it nearer. Never of what
+    /// reaches through the near plane or lies outside the picture.
     /// @param corners_eye  at least one; as above
     bool hides(std::span<const glm::dvec3> corners_eye) const;
     /// The same of what shows on these pixels only, at `nearest_m` or farther.

@@ -19,8 +19,8 @@ bool are_same(std::span<const lod::View> a, std::span<const lod::View> b) {
 
 }  // namespace
 
-ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place, Hiding hiding)
-    : tree_(std::move(tree)), place_(place), hiding_(hiding), cut_(tree_.clusters.size()) {
+ClusterFront::ClusterFront(ClusterTree tree, const ScenePlace& place)
+    : tree_(std::move(tree)), place_(place), cut_(tree_.clusters.size()) {
     CHECK(!tree_.clusters.empty());
     add(kRootCluster);
 }

@@ -45,11 +45,11 @@ class ClusterFront final : public lod::Front {
   public:
     /// @param tree   kept; at least a root
     /// @param place  a rotation, orthonormal, and a finite origin
-    ClusterFront(ClusterTree tree, const ScenePlace& place, Hiding hiding = Hiding::kClusters);
+    ClusterFront(ClusterTree tree, const ScenePlace& place);
 
-    /// Before place(): triangles that may show are written to the pool, which takes room.
+    /// kClusters unless told otherwise. Before place(): triangles that may show are written to the pool, which takes room.
     /// @param threads  look for them; what is found is the same
-    void set_hiding(Hiding hiding, unsigned threads) { hiding_ = hiding, threads_ = threads; }
+    void set_hiding(Hiding hiding, unsigned threads = 1) { hiding_ = hiding, threads_ = threads; }
 
     /// Moves the whole scene; the next frame sees everything anew. @param place  as for the constructor
     void stand_at(const ScenePlace& place);
@@ -99,7 +99,7 @@ class ClusterFront final : public lod::Front {
 
     ClusterTree tree_;
     ScenePlace place_;
-    Hiding hiding_;
+    Hiding hiding_ = Hiding::kClusters;
     unsigned threads_ = 1;
     ClusterCut cut_;
     ClusterOcclusion occlusion_;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr size_t kFramesPerStrip = 4;  ///< when it does not pay
 constexpr size_t kFewest = 64;         ///< triangles that say something
-/// Of all that are asked, so many must be left out for it to pay (it does from a third on, on two cores), and fewer for it
-/// to go on.
+/// Of all that are asked, so many must be left out for it to pay, and fewer for it to go on. On two cores it saves processor
+/// time from a third on: asking takes 0.12 us a triangle, one that is hidden 0.37 us (city_flight).
 constexpr double kPayingShare = 0.4, kLosingShare = 0.3;
 
 std::span<const uint32_t> indices_of(const ClusterSieve::Scene& scene, const lod::DrawItem& item) {

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "lod/base/rng.h"
+#include "tests/lod/eye_views.h"
 
 namespace {
+
+using lod_test::view_of;
 
 /// A box anyhow turned, in the eye frame.
 struct Box {
@@ -52,14 +55,6 @@ Box random_box(lod::Rng& rng, double depth_m, double size_m) {
     const glm::dvec3 at(1.6 * (rng.unit() - 0.5) * depth_m, 1.0 * (rng.unit() - 0.5) * depth_m, -depth_m);
     const auto half = [&rng, size_m] { return size_m * (0.05 + 0.45 * rng.unit()); };
     return {at, random_turn(rng), {half(), half(), half()}};
-}
-
-lod::View view_of(int width_px, int height_px) {
-    lod::View view;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    view.near_m = 0.5;
-    return view;
 }
 
 /// Whoever is said to be hidden is: through the centre of every pixel that a point of it falls into, some solid stands

@@ -10,18 +10,12 @@
 #include <vector>
 
 #include "lod/base/rng.h"
+#include "tests/lod/eye_views.h"
 
 namespace {
 
+using lod_test::view_of;
 using Corners = std::array<glm::dvec3, 3>;  ///< eye frame, metres
-
-lod::View view_of(int width_px, int height_px) {
-    lod::View view;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    view.near_m = 0.5;
-    return view;
-}
 
 /// Many small ones over one another, some long and thin, some that reach behind the eye or far out of the picture.
 std::vector<Corners> random_triangles(lod::Rng& rng, size_t count) {

@@ -77,7 +77,8 @@ TEST(ClusterFront, AfterAMoveItDrawsWhatOneBuiltThereDraws) {
 
 TEST(ClusterFront, ConvergesToDisplayAtRandomEyesAndTimes) {
     const RandomClusters scene(1, 2000, kEnd_s);
-    ClusterFront front(scene.tree(), {}, Hiding::kNothing);  // DISPLAY knows of no hiding
+    ClusterFront front(scene.tree(), {});
+    front.set_hiding(Hiding::kNothing);  // DISPLAY knows of no hiding
     lod::Rng rng(2);
     std::vector<ClusterId> expected, drawn;
     uint64_t drawn_count = 0;

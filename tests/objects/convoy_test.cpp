@@ -227,8 +227,8 @@ size_t bodies_at(const ClusterTree& tree, double time_s) {
 
 /// From afar a vehicle is one command; what is drawn is what DISPLAY says, whatever the front drew before.
 TEST(Convoy, StandsForAllPartsFromAfar) {
-    ClusterFront front(objects_test::build(fleet(90, 0)), {},
-                       Hiding::kNothing);  // DISPLAY knows of no hiding
+    ClusterFront front(objects_test::build(fleet(90, 0)), {});
+    front.set_hiding(Hiding::kNothing);  // DISPLAY knows of no hiding
     const ClusterTree& tree = front.tree();
     lod::Rng rng(2);
     size_t drawn_far = 0, bodies = 0;

@@ -137,6 +137,41 @@ TEST(HiddenClusters, JumpsThroughACityShowAllThatIsThere) {
     EXPECT_EQ(compare(tree, moments, 2.0).frames_that_differ, 0u);
 }
 
+/// Every second wall of every third house is a pane: it hides nothing, and lies over what it does not hide. From above little
+/// is hidden, so triangles are asked in strips only; then the eye comes down.
+TEST(HiddenClusters, PanesShowWhatIsBehindThemFromAboveAndBelow) {
+    data::TimedScene scene = bench::prism_city(kColumns * kColumns, kColumns);
+    size_t panes = 0;
+    for (size_t i = 0; i < scene.meshes.size(); i += 3) {
+        data::TimedMesh& mesh = scene.meshes[i];
+        for (size_t triangle = 0; triangle + 3 < mesh.triangles.size() / 2; triangle += 4) {
+            for (size_t half = 0; half < 2; ++half) {
+                for (uint32_t corner : mesh.triangles[triangle + half])
+                    mesh.colours[corner].w = 100;
+                ++panes;
+            }
+        }
+    }
+    ASSERT_GT(panes, 1000u);
+    const objects::ClusterTree tree = objects::build_cluster_tree(scene, {.threads = 2});
+    const double middle = 0.5 * kColumns * bench::kCityCell_m;
+    std::vector<Moment> above, below;
+    for (int frame = 0; frame < 40; ++frame) {
+        const double angle = 0.1 * frame;
+        const glm::dvec3 eye(middle + 30.0 * std::cos(angle), middle + 30.0 * std::sin(angle), 160.0);
+        above.push_back({lod::look_at(eye, {middle, middle, 0.0}, {0.0, 1.0, 0.0}, optics()), 0.0});
+        const glm::dvec3 street(30.0 + 2.0 * frame, 12.0 * bench::kCityCell_m, 2.0);
+        below.push_back(
+            {lod::look_at(street, street + glm::dvec3(100.0, 20.0, 0.0), {0.0, 0.0, 1.0}, optics()), 0.0});
+    }
+    std::vector<Moment> both = above;
+    both.insert(both.end(), below.begin(), below.end());
+    EXPECT_EQ(compare(tree, both, 1.0).frames_that_differ, 0u);
+    const Tally seen = compare(tree, above, 1.0);
+    EXPECT_GT(10 * seen.showing_triangles, 9 * seen.drawn_triangles)
+        << "nothing is asked all over the picture";
+}
+
 /// Houses that come and go, each at its own times, and one in `driving` of them that drives about in between.
 data::TimedScene restless_city(uint32_t driving) {
     data::TimedScene scene = bench::prism_city(kColumns * kColumns, kColumns);
