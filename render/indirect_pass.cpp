@@ -62,8 +62,7 @@ void set_state(bool has_glass) {
 lod::Result<IndirectPass> make_indirect_pass(uint32_t command_capacity) {
     IndirectPass pass;
     for (size_t i = 0; i < pass.programs.size(); ++i) {
-        auto program = make_scene_program(
-            {.has_textures = (i & 1) != 0, .has_air = (i & 2) != 0, .has_glass = (i & 4) != 0});
+        auto program = make_scene_program({.has_textures = (i & 1) != 0, .has_air = (i & 2) != 0});
         if (!program) return program.error();
         pass.programs[i] = std::move(*program);
     }
@@ -123,9 +122,7 @@ void submit(const GeometryPool& pool, const SurfaceTextures& textures, const Sha
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, pass.frame.id());
     glBindTextureUnit(0, textures.ground.id());
     glBindTextureUnit(1, textures.patterns.id());
-    const size_t program =
-        size_t{features.has_textures} + 2 * size_t{features.has_air} + 4 * size_t{features.has_glass};
-    glUseProgram(pass.programs[program].id());
+    glUseProgram(pass.programs[size_t{features.has_textures} + 2 * size_t{features.has_air}].id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                                 static_cast<GLsizei>(pass.command_count), sizeof(DrawCommand));
 }

@@ -15,7 +15,7 @@
 namespace render {
 
 struct IndirectPass {
-    std::array<Program, 8> programs;       ///< has_textures + 2 * has_air + 4 * has_glass
+    std::array<Program, 4> programs;       ///< has_textures + 2 * has_air
     VertexArray vertex_array;              ///< lod::Vertex as the shader's inputs
     MappedArray<DrawCommand> commands;     ///< capacity + 1: the sky
     MappedArray<lod::Instance> instances;  ///< capacity + 1: the sky

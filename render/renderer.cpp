@@ -183,7 +183,7 @@ void Renderer::draw(const lod::View& view, const lod::DrawList& list, const Atmo
     glBindFramebuffer(GL_FRAMEBUFFER, state.target.framebuffer.id());
     glViewport(0, 0, state.target.width_px, state.target.height_px);
     const bool has_air = atmosphere.draw_sky || std::isfinite(atmosphere.visibility_m);
-    submit(state.pool, state.textures, {state.has_textures, has_air, state.pass.has_glass}, state.pass);
+    submit(state.pool, state.textures, {state.has_textures, has_air}, state.pass);
     state.in_flight.place();
 
     state.drawn_near_m = view.near_m;

@@ -29,14 +29,13 @@ std::string constant(const char* name, bool value) {
 
 std::string preamble(const ShaderFeatures& features) {
     return "#version 450 core\n" + constant("kHasTextures", features.has_textures) +
-           constant("kHasAir", features.has_air) + constant("kHasGlass", features.has_glass) +
-           constant("kGround", lod::Material::kGround) + constant("kWall", lod::Material::kWall) +
-           constant("kRoof", lod::Material::kRoof) + constant("kPaint", lod::Material::kPaint) +
-           constant("kGlow", lod::Material::kGlow) + constant("kGlass", lod::Material::kGlass) +
-           constant("kSky", lod::Material::kSky) + constant("kWallFoot", lod::Material::kWallFoot) +
-           constant("kPlain", Pattern::kPlain) + constant("kGrain", Pattern::kGround) +
-           constant("kRoofing", Pattern::kRoof) + constant("kFirstFacade", Pattern::kHouse) +
-           constant("kRoofTilesPerMetre", 1.0 / kRoofTile_m) +
+           constant("kHasAir", features.has_air) + constant("kGround", lod::Material::kGround) +
+           constant("kWall", lod::Material::kWall) + constant("kRoof", lod::Material::kRoof) +
+           constant("kPaint", lod::Material::kPaint) + constant("kGlow", lod::Material::kGlow) +
+           constant("kGlass", lod::Material::kGlass) + constant("kSky", lod::Material::kSky) +
+           constant("kWallFoot", lod::Material::kWallFoot) + constant("kPlain", Pattern::kPlain) +
+           constant("kGrain", Pattern::kGround) + constant("kRoofing", Pattern::kRoof) +
+           constant("kFirstFacade", Pattern::kHouse) + constant("kRoofTilesPerMetre", 1.0 / kRoofTile_m) +
            constant("kFacadeTilesPerMetre", 1.0 / kFacadeTile_m) + constant("kPerNeutral", 255.0 / kNeutral);
 }
 

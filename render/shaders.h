@@ -11,7 +11,6 @@ struct ShaderFeatures {
     bool has_textures =
         false;             ///< the ground's colours and the patterns of surfaces; without: white and plain
     bool has_air = false;  ///< haze and sky
-    bool has_glass = false;
 };
 
 /// Compiles and links. Fails with the driver's first complaint, or when the driver lays the frame's block

@@ -76,7 +76,7 @@ vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     vec3 towards_eye = -normalize(position_eye);
     if (material == kGround) return vec4(1.0);
     if (material == kGlow) return vec4(colour, 1.0);
-    if (kHasGlass && material == kGlass) return glass(colour, normal, towards_eye);
+    if (material == kGlass) return glass(colour, normal, towards_eye);
     float dimming = material == kWallFoot ? 0.88 : material == kWall ? 0.97 : 1.0;
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
 }
