@@ -62,6 +62,10 @@ class Front {
     /// The smallest screen error one coarsen() would introduce, px; +infinity when nothing can be coarsened.
     virtual double coarsen_error_px() = 0;
 
+    /// Hysteresis, in (0, 1]: what stays below the tolerance times this is taken back, so that what the eye's next tremor
+    /// would refine again is not.
+    virtual double coarsen_ratio() const { return 0.6; }
+
     /// Refines the worst place. Does nothing (steps == 0) when refine_error_px() is 0 or memory is full.
     virtual Step refine() = 0;
 

@@ -59,11 +59,18 @@ class Bargain {
             if (is_worth_it && triangles < budget_.max_triangles) return refine(high);
             if (is_worth_it && low.front && is_gain(high)) return give_up(low);
         }
-        const double release_px = budget_.tolerance_px * budget_.coarsen_ratio;
-        return low.front && low.error_px < release_px && low.front->coarsen(release_px).steps > 0;
+        return release();
     }
 
   private:
+    /// Takes back what no front needs for the tolerance.
+    bool release() {
+        for (Front* front : fronts_) {
+            const double release_px = budget_.tolerance_px * front->coarsen_ratio();
+            if (front->coarsen_error_px() < release_px && front->coarsen(release_px).steps > 0) return true;
+        }
+        return false;
+    }
     bool is_gain(const Choice& high) const { return high.error_px > paid_px_ * budget_.swap_ratio; }
     bool refine(const Choice& high) { return is_gain(high) && high.front->refine().steps > 0; }
     bool give_up(const Choice& low) {

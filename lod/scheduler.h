@@ -4,7 +4,7 @@
 //         too many triangles        -> coarsen where it costs least
 //         worst error > tolerance   -> refine there; near the triangle limit first make room, but only when the
 //                                      swap gains more than the hysteresis over all that was given up so far
-//         else                      -> release what stays below tolerance * coarsen_ratio, until nothing is left;
+//         else                      -> release what stays below tolerance * a front's coarsen_ratio, until nothing is left;
 //                                      then fronts look again at what they put off, which may give more to do
 //
 // ROAM's dual-queue loop (Duchaineau 1997) over several hierarchies in one currency, pixels; Funkhouser and
@@ -32,7 +32,6 @@ inline Deadline operation_limit(uint64_t limit) {
 struct Budget {
     double tolerance_px = 1.0;            ///< >= 0; refine what exceeds it; 0 asks for the source data itself
     uint64_t max_triangles = UINT64_MAX;  ///< over all fronts
-    double coarsen_ratio = 0.6;           ///< in (0, 1): coarsen what stays below tolerance * this
     double swap_ratio = 1.5;  ///< > 1: at the triangle limit, swap when refining gains this factor
 };
 

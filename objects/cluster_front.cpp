@@ -42,10 +42,9 @@ void ClusterFront::evaluate(CutRecord& record) {
     if (record.presence.share <= 0.0 || sights_.empty()) return;
     ++evaluations_;
     const Cluster& cluster = tree_.clusters[record.id];
-    const SceneSphere sphere = sphere_at(tree_, cluster, time_s_);
     const double error_m = timed_error_m(cluster, record.presence.share);
     for (size_t eye = 0; eye < sights_.size(); ++eye) {
-        const ClusterSight sight = sight_of({&sights_[eye], 1}, sphere, error_m);
+        const ClusterSight sight = sight_of(sights_[eye], tree_, cluster, time_s_, error_m);
         if (!sight.is_seen) continue;
         if (occlusion_.hides(tree_, eye, sights_[eye], cluster, time_s_)) {
             record.is_hidden = true;
@@ -121,9 +120,8 @@ void ClusterFront::begin_frame(std::span<const lod::View> views, double time_s) 
     if (looks_at_all) changes_ = 0;
     uint64_t hidden = 0, seen = 0;
     for (CutRecord& record : cut_) {
-        const bool may_differ =
-            record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden);
-        if (looks_at_all || may_differ) evaluate(record);
+        if (looks_at_all || record.has_event || tree_.moves(record.id) || (hides_anew && record.is_hidden))
+            evaluate(record);
         hidden += record.is_hidden;
         seen += record.is_seen;
         offer(record);

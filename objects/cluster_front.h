@@ -51,6 +51,10 @@ class ClusterFront final : public lod::Front {
     /// @param threads  look for them; what is found is the same
     void set_hiding(Hiding hiding, unsigned threads = 1) { hiding_ = hiding, threads_ = threads; }
 
+    /// Hysteresis, 0.95 unless told otherwise: a whole cluster is exchanged for another by one step, so it is worth little.
+    void set_coarsen_ratio(double ratio) { coarsen_ratio_ = ratio; }
+    double coarsen_ratio() const override { return coarsen_ratio_; }
+
     /// Moves the whole scene; the next frame sees everything anew. @param place  as for the constructor
     void stand_at(const ScenePlace& place);
 
@@ -101,6 +105,7 @@ class ClusterFront final : public lod::Front {
     ScenePlace place_;
     Hiding hiding_ = Hiding::kClusters;
     unsigned threads_ = 1;
+    double coarsen_ratio_ = 0.95;
     ClusterCut cut_;
     ClusterOcclusion occlusion_;
     bool is_uncovered_ = false;  ///< some occluder is no longer drawn

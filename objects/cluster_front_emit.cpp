@@ -35,8 +35,9 @@ void ClusterFront::line_up(const SceneView& sight) {
     const glm::dvec3 ahead = -glm::row(sight.eye_from_scene, 2);
     for (const CutRecord& record : cut_) {
         if (!record.is_drawn()) continue;
-        const SceneSphere sphere = sphere_at(tree_, tree_.clusters[record.id], time_s_);
-        if (!is_only_eye && !sight_of({&sight, 1}, sphere, 0.0).is_seen) continue;
+        const Cluster& cluster = tree_.clusters[record.id];
+        if (!is_only_eye && !sight_of(sight, tree_, cluster, time_s_, 0.0).is_seen) continue;
+        const SceneSphere sphere = sphere_at(tree_, cluster, time_s_);
         line_.push_back({static_cast<float>(glm::dot(ahead, sphere.centre - sight.eye_scene)), record.id});
     }
     std::sort(line_.begin(), line_.end(), [](const Drawn& a, const Drawn& b) {

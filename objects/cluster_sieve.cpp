@@ -40,7 +40,7 @@ bool meet(const lod::Columns& a, const lod::Columns& b) {
 void ClusterSieve::begin(const lod::View& view) {
     pieces_.clear();
     kept_.clear();
-    left_out_ = 0;
+    left_out_ = asked_ = 0;
     const float width_px = static_cast<float>(view.width_px) / kStrips;
     for (size_t i = 0; i < kStrips; ++i) {
         strips_[i] = {};
@@ -51,19 +51,19 @@ void ClusterSieve::begin(const lod::View& view) {
 
 void ClusterSieve::add(const Scene& scene, const Cluster& cluster, size_t first_item,
                        const lod::DrawList& out) {
-    if (!pays_ && frames_idle_ % kFramesPerStrip != 0) return;
     Piece piece{.geometry = cluster.geometry, .first_item = first_item, .end_item = first_item};
     piece.first_triangle = piece.end_triangle = pieces_.empty() ? 0 : pieces_.back().end_triangle;
     // Glass comes last and stays.
     for (; piece.end_item < out.items.size() && !out.items[piece.end_item].is_glass; ++piece.end_item)
         piece.end_triangle += out.items[piece.end_item].index_count / 3;
     if (piece.end_triangle == piece.first_triangle) return;
-    piece.box_eye = box_in_eye(scene.tree, cluster, scene.sight, scene.time_s);
-    piece.columns = columns_of(scene, piece.box_eye);
-    if (!pays_) {
+    if (pays_ || frames_idle_ % kFramesPerStrip == 0) {
+        piece.box_eye = box_in_eye(scene.tree, cluster, scene.sight, scene.time_s);
+        piece.columns = columns_of(scene, piece.box_eye);
         const lod::Columns& asked = strips_[frames_idle_ / kFramesPerStrip % kStrips];
-        if (!asked.hold(piece.columns.left_px) || !asked.hold(piece.columns.right_px)) return;
+        piece.is_asked = pays_ || (asked.hold(piece.columns.left_px) && asked.hold(piece.columns.right_px));
     }
+    asked_ += piece.is_asked ? piece.end_triangle - piece.first_triangle : 0;
     pieces_.push_back(piece);
 }
 
@@ -71,7 +71,7 @@ void ClusterSieve::judge(const Scene& scene, const lod::DrawList& list, size_t s
     lod::TriangleSieve& sieve = sieves_[strip];
     sieve.begin(scene.view, strips_[strip]);
     for (const Piece& piece : pieces_) {
-        if (!meet(piece.columns, strips_[strip]) || sieve.hides(piece.box_eye)) continue;
+        if (!piece.is_asked || !meet(piece.columns, strips_[strip]) || sieve.hides(piece.box_eye)) continue;
         const ClusterGeometry& geometry = scene.tree.geometries[piece.geometry];
         const auto vertices =
             std::span(scene.tree.vertices).subspan(geometry.first_vertex, geometry.vertex_count);
@@ -94,7 +94,7 @@ uint32_t ClusterSieve::keep(const Scene& scene, const Piece& piece) {
         const std::span<const uint32_t> indices = indices_of(scene, items_[i]);
         const auto base = static_cast<uint32_t>(items_[i].base_vertex);
         for (size_t k = 0; k < indices.size(); ++k) {
-            if (shows_[triangle + k / 3] != 0) kept_.push_back(base + indices[k]);
+            if (!piece.is_asked || shows_[triangle + k / 3] != 0) kept_.push_back(base + indices[k]);
         }
         triangle += indices.size() / 3;
     }
@@ -133,7 +133,7 @@ void ClusterSieve::replace_items(const Scene& scene, lod::DrawList& out) {
 uint64_t ClusterSieve::finish(const Scene& scene, unsigned threads, lod::DrawList& out) {
     if (!pieces_.empty()) {
         shows_.assign(pieces_.back().end_triangle, 0);
-        lod::parallel_for(kStrips, threads, [&](size_t begin, size_t end) {
+        if (asked_ > 0) lod::parallel_for(kStrips, threads, [&](size_t begin, size_t end) {
             for (size_t strip = begin; strip < end; ++strip)
                 judge(scene, out, strip);
         });
@@ -145,10 +145,9 @@ uint64_t ClusterSieve::finish(const Scene& scene, unsigned threads, lod::DrawLis
 
 void ClusterSieve::learn() {
     frames_idle_ = pays_ ? 0 : frames_idle_ + 1;
-    const size_t asked = pieces_.empty() ? 0 : pieces_.back().end_triangle;
-    if (asked >= kFewest)
+    if (asked_ >= kFewest)
         pays_ = static_cast<double>(left_out_) >=
-                (pays_ ? kLosingShare : kPayingShare) * static_cast<double>(asked);
+                (pays_ ? kLosingShare : kPayingShare) * static_cast<double>(asked_);
 }
 
 uint64_t ClusterSieve::memory_bytes() const {

@@ -45,6 +45,7 @@ class ClusterSieve {
     /// The opaque items of a cluster.
     struct Piece {
         uint32_t geometry = 0;
+        bool is_asked = false;
         size_t first_item = 0, end_item = 0;
         size_t first_triangle = 0, end_triangle = 0;  ///< of shows_
         lod::Columns columns{};                       ///< that hold its box
@@ -61,7 +62,7 @@ class ClusterSieve {
     std::vector<uint8_t> shows_;  ///< [triangles of all pieces]
     std::vector<uint32_t> kept_;
     std::vector<lod::DrawItem> items_;  ///< as they came
-    uint64_t left_out_ = 0;
+    uint64_t left_out_ = 0, asked_ = 0;  ///< triangles
     bool pays_ = true;
     size_t frames_idle_ = 0;  ///< since it last paid
 };

@@ -16,8 +16,13 @@ struct Traversal {
         const Cluster& cluster = tree.clusters[id];
         const double visibility = visibility_at(tree, cluster.visibility, time_s);
         if (visibility <= 0.0) return;
-        const ClusterSight sight =
-            sight_of(views, sphere_at(tree, cluster, time_s), timed_error_m(cluster, visibility));
+        ClusterSight sight;
+        for (const SceneView& view : views) {
+            const ClusterSight one =
+                sight_of(view, tree, cluster, time_s, timed_error_m(cluster, visibility));
+            sight.is_seen = sight.is_seen || one.is_seen;
+            sight.error_px = std::max(sight.error_px, one.error_px);
+        }
         if (!sight.is_seen) return;
         if (sight.error_px > tolerance_px && cluster.child_count > 0) {
             for (uint32_t child = 0; child < cluster.child_count; ++child)

@@ -23,37 +23,35 @@ SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double ti
     return {pose.position + pose.rotation * own.centre, own.radius_m * (1.0 + 1e-12)};
 }
 
-std::array<glm::dvec3, 8> box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
+lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
                                      double time_s) {
     // Its own geometry may stick out of the box of what it stands for.
     const double margin_m = cluster.geometry == kNoGeometry ? 0.0 : double(cluster.error_m);
     const glm::dvec3 low = glm::dvec3(cluster.box_min) - margin_m,
                      high = glm::dvec3(cluster.box_max) + margin_m;
-    const bool moves = cluster.motion != kSceneFrame && tree.motions[cluster.motion].size() > 1;
-    const data::ObjectPose pose = moves ? pose_of(tree, cluster, time_s) : data::ObjectPose{};
-    const glm::dmat3 eye_from_box = sight.eye_from_scene * glm::mat3_cast(pose.rotation);
-    const glm::dvec3 first = eye_from_box * low + sight.eye_from_scene * (pose.position - sight.eye_scene);
+    glm::dmat3 eye_from_box = sight.eye_from_scene;
+    glm::dvec3 origin_scene(0.0);
+    if (cluster.motion != kSceneFrame && tree.motions[cluster.motion].size() > 1) {
+        const data::ObjectPose pose = pose_of(tree, cluster, time_s);
+        eye_from_box = eye_from_box * glm::mat3_cast(pose.rotation);
+        origin_scene = pose.position;
+    }
     const glm::dvec3 extent = high - low;
-    std::array<glm::dvec3, 8> corners;
-    for (size_t i = 0; i < corners.size(); ++i) {
-        corners[i] = first;
-        for (glm::length_t axis = 0; axis < 3; ++axis) {
-            if ((i >> axis & 1) != 0) corners[i] += eye_from_box[axis] * extent[axis];
-        }
+    lod::EyeBox corners;
+    corners[0] = eye_from_box * low + sight.eye_from_scene * (origin_scene - sight.eye_scene);
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const auto column = static_cast<glm::length_t>(axis);
+        const glm::dvec3 across = eye_from_box[column] * extent[column];
+        for (size_t i = 0; i < size_t{1} << axis; ++i)
+            corners[i + (size_t{1} << axis)] = corners[i] + across;
     }
     return corners;
 }
 
-ClusterSight sight_of(std::span<const SceneView> views, const SceneSphere& sphere, double error_m) {
-    ClusterSight sight;
-    for (const SceneView& view : views) {
-        const glm::dvec3 centre_eye = view.eye_from_scene * (sphere.centre - view.eye_scene);
-        if (lod::distance_outside_m(view.metric, centre_eye, sphere.radius_m) > 0.0) continue;
-        sight.is_seen = true;
-        sight.error_px =
-            std::max(sight.error_px, lod::screen_error_px(view.metric, centre_eye, sphere.radius_m, error_m));
-    }
-    return sight;
+ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s, double error_m) {
+    const lod::EyeBox box = box_in_eye(tree, cluster, view, time_s);
+    if (lod::is_outside(view.metric, box)) return {};
+    return {true, lod::screen_error_px(view.metric, box, error_m)};
 }
 
 }  // namespace objects

@@ -16,7 +16,6 @@ namespace objects {
 namespace {
 
 constexpr uint32_t kMostLevels = 24;
-constexpr double kFirstSizes = 9.5;  ///< w(1) in usual objects, whatever the scene's size
 
 /// Of values in any order: what most of them are near to, without a jump where two kinds are equally many.
 double mean_of_middle_half(std::vector<double> values) {
@@ -53,7 +52,7 @@ void settle_levels(Draft& draft) {
         return;
     }
     const double usual = sizes.empty() ? largest : mean_of_middle_half(sizes);
-    const double first_m = kFirstSizes * usual;
+    const double first_m = options.first_sizes * usual;
     const double doublings =
         std::clamp(std::ceil(std::log2(draft.size_m / first_m)), 0.0, double(kMostLevels - 1));
     options.levels =

@@ -7,6 +7,7 @@
 
 #include "lod/base/hash.h"
 #include "objects/clustering/grouping.h"
+#include "objects/clustering/scene_frame.h"
 
 namespace objects {
 
@@ -113,13 +114,24 @@ void settle_gamma(ClusterTree& tree) {
     }
 }
 
+/// Those of the draft that clusters name, in its order; clusters name the tree's from then on.
 void move_motions(const Draft& draft, ClusterTree& tree) {
-    for (const data::IndexRange motion : draft.motions) {
+    std::vector<uint32_t> name(draft.motions.size(), kSceneFrame);
+    for (const Cluster& cluster : tree.clusters) {
+        if (cluster.motion != kSceneFrame) name[cluster.motion] = 0;
+    }
+    for (size_t i = 0; i < name.size(); ++i) {
+        if (name[i] == kSceneFrame) continue;
+        const data::IndexRange motion = draft.motions[i];
         const uint32_t first = static_cast<uint32_t>(tree.keys.size());
         tree.keys.insert(tree.keys.end(), draft.scene.keys.begin() + motion.begin,
                          draft.scene.keys.begin() + motion.end);
         if (motion.size() == 1) tree.keys.back().time_s = 0.0;
+        name[i] = static_cast<uint32_t>(tree.motions.size());
         tree.motions.push_back({first, static_cast<uint32_t>(tree.keys.size())});
+    }
+    for (Cluster& cluster : tree.clusters) {
+        if (cluster.motion != kSceneFrame) cluster.motion = name[cluster.motion];
     }
 }
 
@@ -132,7 +144,6 @@ ClusterTree flatten(Draft& draft, uint32_t root) {
     tree.is_on_earth = draft.scene.is_on_earth;
     tree.object_count = static_cast<uint32_t>(draft.scene.objects.size());
     draft.pool.move_to(tree);
-    move_motions(draft, tree);
     Visibilities visibilities(tree);
     if (root == kNone) {
         Cluster empty;
@@ -158,6 +169,8 @@ ClusterTree flatten(Draft& draft, uint32_t root) {
         }
     }
     settle_gamma(tree);
+    put_in_scene_frame(draft, tree);
+    move_motions(draft, tree);
     return tree;
 }
 

@@ -43,7 +43,7 @@ void converge(ClusterFront& front, double tolerance_px) {
     std::vector<lod::Front*> fronts{&front};
     lod::Budget budget;
     budget.tolerance_px = tolerance_px;
-    budget.coarsen_ratio = 1.0;
+    front.set_coarsen_ratio(1.0);
     ASSERT_TRUE(lod::schedule(fronts, budget, lod::operation_limit(1'000'000)).converged);
 }
 

@@ -241,7 +241,7 @@ TEST(Convoy, StandsForAllPartsFromAfar) {
         lod::Front* const fronts[] = {&front};
         lod::Budget budget;
         budget.tolerance_px = 2.0;
-        budget.coarsen_ratio = 1.0;
+        front.set_coarsen_ratio(1.0);
         front.begin_frame({&view, 1}, time_s);
         lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
         front.drawn(drawn);

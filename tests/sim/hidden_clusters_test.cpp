@@ -26,7 +26,7 @@ struct Artist {
         lod::Front* const fronts[] = {&front};
         lod::Budget budget;
         budget.tolerance_px = tolerance_px;
-        budget.coarsen_ratio = 1.0;  // so that the cut follows from the view alone
+        front.set_coarsen_ratio(1.0);  // so that the cut follows from the view alone
         front.begin_frame({&view, 1}, time_s);
         lod::schedule(fronts, budget, lod::operation_limit(UINT64_MAX));
     }
