@@ -61,7 +61,7 @@ class ClusterSieve {
     std::vector<Piece> pieces_;
     std::vector<uint8_t> shows_;  ///< [triangles of all pieces]
     std::vector<uint32_t> kept_;
-    std::vector<lod::DrawItem> items_;  ///< as they came
+    std::vector<lod::DrawItem> items_;   ///< as they came
     uint64_t left_out_ = 0, asked_ = 0;  ///< triangles
     bool pays_ = true;
     size_t frames_idle_ = 0;  ///< since it last paid

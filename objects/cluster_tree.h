@@ -40,8 +40,8 @@ inline constexpr float kNeverEnough_m = 1e30f;  ///< error of what cannot be dra
 /// Opaque triangles of a geometry that look about the same way; consecutive ranges make up all of them.
 /// Unless said otherwise a range may be seen from anywhere.
 struct FacingRange {
-    glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit; normals are no farther than spread_rad from it
-    float spread_rad = 4.0f;
+    glm::vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit; normals are no farther from it …
+    float spread_cos = -2.0f;  ///< … than the angle of this cosine; less than -1: they look anywhere
     float least_offset_m =
         0.0f;  ///< no face's plane passes the geometry's centre nearer, along its normal; may be negative
     uint32_t index_count = 0;

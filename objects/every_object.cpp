@@ -36,7 +36,8 @@ void EveryObject::emit(const lod::View& view, lod::DrawList& out) {
     ClusterItems items(tree_, place_, region_, view, time_s_);
     for (const Leaf& leaf : leaves_) {
         if (leaf.presence.share <= 0.0) continue;
-        if (sight_of(sight, tree_, tree_.clusters[leaf.id], time_s_, 0.0).is_seen) items.add_whole(leaf.id, out);
+        if (sight_of(sight, tree_, tree_.clusters[leaf.id], time_s_, 0.0).is_seen)
+            items.add_whole(leaf.id, out);
     }
     emitted_ = items.triangles();
 }

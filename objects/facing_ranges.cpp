@@ -15,8 +15,7 @@ bool looks_away(const FacingRange& range, const glm::dvec3& eye) {
     const double distance_m = glm::length(eye);
     const double along_m = glm::dot(glm::dvec3(range.axis), eye);
     const double across_m = std::sqrt(std::max(distance_m * distance_m - along_m * along_m, 0.0));
-    // In single precision, twice as fast: the slack makes up for it.
-    const double cos = std::cos(range.spread_rad), sin = std::sin(range.spread_rad);
+    const double cos = double(range.spread_cos), sin = std::sqrt(std::max(1.0 - cos * cos, 0.0));
     if (along_m >= distance_m * cos) return false;  // some normal may point right at the eye
     // The largest of dot(normal, eye) over the cone of normals.
     return along_m * cos + across_m * sin < double(range.least_offset_m) - kSlackShare * distance_m;

@@ -24,7 +24,7 @@ SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double ti
 }
 
 lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
-                                     double time_s) {
+                       double time_s) {
     // Its own geometry may stick out of the box of what it stands for.
     const double margin_m = cluster.geometry == kNoGeometry ? 0.0 : double(cluster.error_m);
     const glm::dvec3 low = glm::dvec3(cluster.box_min) - margin_m,
@@ -48,7 +48,8 @@ lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const Sc
     return corners;
 }
 
-ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s, double error_m) {
+ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s,
+                      double error_m) {
     const lod::EyeBox box = box_in_eye(tree, cluster, view, time_s);
     if (lod::is_outside(view.metric, box)) return {};
     return {true, lod::screen_error_px(view.metric, box, error_m)};

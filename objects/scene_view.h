@@ -38,7 +38,8 @@ struct SceneSphere {
 SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double time_s);
 
 /// Corners of a box, in the eye frame, that holds all that a cluster may draw or stand for at a time.
-lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight, double time_s);
+lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
+                       double time_s);
 
 /// What an eye sees of a cluster, or of its box and what may be wrong in it.
 struct ClusterSight {
@@ -46,7 +47,8 @@ struct ClusterSight {
     double error_px = 0.0;  ///< what the error can cost; 0 unless seen; finite
 };
 /// @param error_m  of what is in the cluster's box
-ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s, double error_m);
+ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s,
+                      double error_m);
 
 /// Pose of a cluster's geometry; the scene frame itself for one that has no motion.
 data::ObjectPose pose_of(const ClusterTree& tree, const Cluster& cluster, double time_s);

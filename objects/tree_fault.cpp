@@ -70,7 +70,7 @@ std::string fault_of_geometry(const ClusterTree& tree, const ClusterGeometry& ge
     uint64_t total = geometry.glass_index_count;
     for (uint32_t i = 0; i < geometry.facing_count; ++i) {
         const FacingRange& range = tree.facings[geometry.first_facing + i];
-        if (!is_finite(range.axis) || !(range.spread_rad >= 0.0f) || !std::isfinite(range.least_offset_m))
+        if (!is_finite(range.axis) || !(range.spread_cos <= 1.0f) || !std::isfinite(range.least_offset_m))
             return "triangles that look nowhere; expected a direction";
         total += range.index_count;
     }

@@ -6,7 +6,7 @@ namespace objects {
 namespace {
 
 constexpr lod::Seal kSeal{
-    {'H', 'a', 'r', 'r', 'i', 'e', 'r', 'C'}, 4, "a cluster tree", "harrier objects build"};
+    {'H', 'a', 'r', 'r', 'i', 'e', 'r', 'C'}, 5, "a cluster tree", "harrier objects build"};
 
 /// All of a tree, in the file's order.
 template <typename Tree, typename Values, typename Arrays>

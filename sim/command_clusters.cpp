@@ -117,6 +117,11 @@ void add_clusters_build(CLI::App& app, ClustersBuildArguments& arguments) {
                    "largest error of a level's clusters, as a share of their size")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    app.add_option(
+           "--first-sizes", arguments.options.first_sizes,
+           "unless --levels is given: size of the least clusters of several objects, in objects' sizes")
+        ->check(CLI::Range(1.0, 64.0))
+        ->capture_default_str();
     app.add_option("--spent-share", arguments.options.spent_share,
                    "error that what is reduced further may have, as a share of the level's; more: builds "
                    "faster, draws more")

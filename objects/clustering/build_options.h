@@ -15,7 +15,8 @@ struct BuildOptions {
         2;  ///< unless L is given: of w on the first levels, where objects only get reduced parents
     uint32_t levels_per_doubling =
         2;  ///< … of which one merges, the others only reduce; more: fewer faces, slower, larger
-    double first_sizes = 9.5;   ///< w of the first level that merges, in usual objects, whatever the scene's size
+    double first_sizes =
+        9.5;  ///< w of the first level that merges, in usual objects, whatever the scene's size
     double error_share = 0.01;  ///< epsilon(l) = error_share * w(l)
     double spent_share = 0.25;  ///< of epsilon(l): what is off by more is no source; more: faster, more faces
     double gamma_share = 0.25;  ///< gamma(L) = gamma_share; gamma(l) is in proportion to w(l)

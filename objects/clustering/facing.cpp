@@ -11,12 +11,13 @@ namespace objects {
 
 namespace {
 
-constexpr double kGapShare = 1e-5;   ///< of the extent: points that near are one
-constexpr double kDentShare = 1e-5;  ///< … a corner may lie so far outside a face
-constexpr size_t kMostFaces = 512;   ///< of a part that is looked at
-constexpr size_t kFewestFaces = 8;   ///< of closed solids in a geometry: with fewer nothing is won
-constexpr size_t kMostSolids = 4;    ///< of a geometry that are kept to hide what is behind them
-constexpr float kSteepCos = 0.7f;    ///< what looks up or down more than that
+constexpr double kGapShare = 1e-5;         ///< of the extent: points that near are one
+constexpr double kDentShare = 1e-5;        ///< … a corner may lie so far outside a face
+constexpr size_t kMostFaces = 512;         ///< of a part that is looked at
+constexpr size_t kFewestFaces = 8;         ///< of closed solids in a geometry: with fewer nothing is won
+constexpr size_t kMostSolids = 4;          ///< of a geometry that are kept to hide what is behind them
+constexpr double kSpreadSlack_rad = 1e-3;  ///< for roundings
+constexpr float kSteepCos = 0.7f;          ///< what looks up or down more than that
 constexpr uint32_t kRest = 0, kUp = 1, kFirstAround = 2, kAround = 16;
 constexpr uint32_t kDown = kFirstAround + kAround, kBins = kDown + 1;
 
@@ -115,7 +116,8 @@ FacingRange range_over(const FaceSoup& soup, std::span<const uint32_t> faces, co
         cos = std::min(cos, glm::dot(plane.normal, glm::dvec3(range.axis)));
         least_m = std::min(least_m, plane.offset_m - glm::dot(plane.normal, centre));
     }
-    range.spread_rad = static_cast<float>(std::acos(std::clamp(cos, -1.0, 1.0))) + 1e-3f;
+    const double spread_rad = std::acos(std::clamp(cos, -1.0, 1.0)) + kSpreadSlack_rad;
+    if (spread_rad < std::numbers::pi) range.spread_cos = static_cast<float>(std::cos(spread_rad));
     range.least_offset_m = static_cast<float>(least_m);
     return range;
 }

@@ -16,8 +16,10 @@ std::vector<uint32_t> users_of_geometries(const ClusterTree& tree) {
 
 void move_geometry(const data::ObjectPose& pose, ClusterGeometry& geometry, ClusterTree& tree) {
     const glm::dmat3 turn = glm::mat3_cast(pose.rotation);
-    for (lod::Vertex& vertex : std::span(tree.vertices).subspan(geometry.first_vertex, geometry.vertex_count)) {
-        lod::split_hi_lo(turn * lod::position_of(vertex) + pose.position, vertex.position_hi, vertex.position_lo);
+    for (lod::Vertex& vertex :
+         std::span(tree.vertices).subspan(geometry.first_vertex, geometry.vertex_count)) {
+        lod::split_hi_lo(turn * lod::position_of(vertex) + pose.position, vertex.position_hi,
+                         vertex.position_lo);
         lod::encode_normal(glm::vec3(turn * glm::dvec3(lod::decode_normal(vertex.surface))), vertex.surface);
     }
     const glm::dvec3 centre = turn * glm::dvec3(geometry.centre) + pose.position;
@@ -27,7 +29,6 @@ void move_geometry(const data::ObjectPose& pose, ClusterGeometry& geometry, Clus
     geometry.radius_m = static_cast<float>((double(geometry.radius_m) + slack_m) * (1.0 + kSlackShare));
     for (FacingRange& range : std::span(tree.facings).subspan(geometry.first_facing, geometry.facing_count)) {
         range.axis = glm::vec3(turn * glm::dvec3(range.axis));
-        range.spread_rad += static_cast<float>(kSlackShare);
         range.least_offset_m -= static_cast<float>(slack_m);
     }
 }

@@ -15,8 +15,10 @@ constexpr double kLeastCosine = 0.5;     ///< 60 degrees: what faces elsewhere i
 constexpr double kOffShare = 1e-5;       ///< of the limit: what lies so near is the face itself …
 constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it …
 constexpr double kOutShare = 2.0;        ///< … and what is farther away is something else
-constexpr double kLongFace = 12.0;       ///< limits: a longer face is asked at more points …
-constexpr int kPieces = 8;               ///< … as many a side
+constexpr double kTurnShare = 2.0;       ///< times as much seen of its back as of its front
+constexpr double kLongFace = 2.0;        ///< limits: a longer face is asked at more points …
+constexpr double kVeryLongFace = 12.0;   ///< … and a very long one at very many
+constexpr int kPoints = 32, kManyPoints = 64;
 
 /// Twice the area, along the normal.
 glm::dvec3 area_vector(const lod::Triangle& t) {
@@ -63,7 +65,7 @@ struct Sample {
 };
 
 /// The points that speak for a face, each for as much of its area: its quarters; of a face that is small beside the limit its
-/// middle alone; more of one that is long, lest two halves of a wall get different shares of a band of windows.
+/// middle alone; more of one that is long, and in no rows, lest a wall get a wrong share of its bands of windows.
 void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, double limit_m,
                 std::vector<Sample>& out) {
     out.clear();
@@ -76,20 +78,15 @@ void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, 
             out.push_back({points[i], nearest[i]});
         return;
     }
-    // Rows of triangles that stand, and of those between them that hang.
-    const auto add = [&](double along, double up) {
-        const size_t quarter = along + up <= 0.5 * kPieces ? 1
-                               : along >= 0.5 * kPieces    ? 2
-                               : up >= 0.5 * kPieces       ? 3
-                                                           : 0;
-        out.push_back(
-            {t.a + (along / kPieces) * (t.b - t.a) + (up / kPieces) * (t.c - t.a), nearest[quarter]});
-    };
-    for (int row = 0; row < kPieces; ++row) {
-        for (int i = 0; i + row < kPieces; ++i) {
-            add(i + 1.0 / 3.0, row + 1.0 / 3.0);
-            if (i + row + 1 < kPieces) add(i + 2.0 / 3.0, row + 2.0 / 3.0);
-        }
+    const int count = longest_m > kVeryLongFace * limit_m ? kManyPoints : kPoints;
+    for (int i = 0; i < count; ++i) {
+        // Evenly over a square, of which what is beyond the diagonal is turned back. Source: Roberts, The unreasonable
+        // effectiveness of quasirandom sequences (2018).
+        double whole = 0.0, along = std::modf(0.5 + 0.7548776662466927 * i, &whole),
+               up = std::modf(0.5 + 0.5698402909980532 * i, &whole);
+        if (along + up > 1.0) along = 1.0 - along, up = 1.0 - up;
+        const size_t quarter = along + up <= 0.5 ? 1 : along >= 0.5 ? 2 : up >= 0.5 ? 3 : 0;
+        out.push_back({t.a + along * (t.b - t.a) + up * (t.c - t.a), nearest[quarter]});
     }
 }
 
@@ -113,6 +110,17 @@ void join_halves(const FaceSoup& soup, std::vector<Mixtures>& mixtures) {
         if (!(glm::dot(one, other) > kFlatCosine * glm::length(one) * glm::length(other))) continue;
         mixtures[face].add(mixtures[half->second]);
         mixtures[half->second] = mixtures[face];
+    }
+}
+
+/// Faces of which the back is what is seen are turned over: contraction pulls a wall from a floor's edge, and with it the
+/// floor's idea of what is outside.
+void turn_to_the_seen(FaceSoup& soup, std::vector<Mixtures>& mixtures) {
+    for (size_t face = 0; face < soup.faces.size(); ++face) {
+        auto& [seen, seen_behind, all] = mixtures[face];
+        if (!(seen_behind.weight > kTurnShare * seen.weight)) continue;
+        std::swap(soup.faces[face][1], soup.faces[face][2]);
+        std::swap(seen, seen_behind);
     }
 }
 
@@ -162,6 +170,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
                 add(second.triangle, area, light, &Mixtures::seen, &Mixtures::seen_behind);
         }
     }
+    turn_to_the_seen(result, mixtures);
     join_halves(result, mixtures);
     for (size_t face = 0; face < result.faces.size(); ++face) {
         const auto& [seen, seen_behind, all] = mixtures[face];

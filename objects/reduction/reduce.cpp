@@ -97,6 +97,18 @@ void mend(const FaceSoup& source, const StandIns& parts, const Failures& failure
     result = large_cover(result, limit_m, settled);
 }
 
+/// Whether no part that has a stand-in has two colours: then nothing of the colours is left to settle.
+bool are_of_one_colour(const FaceSoup& source, const StandIns& parts) {
+    std::vector<uint32_t> first_face(parts.is_replaced.size(), kNoFace);
+    for (uint32_t face = 0; face < source.faces.size(); ++face) {
+        const uint32_t part = parts.part_of_source[face];
+        if (parts.is_replaced[part] == 0) continue;
+        if (first_face[part] == kNoFace) first_face[part] = face;
+        if (source.colours[face] != source.colours[first_face[part]]) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
@@ -117,8 +129,9 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     if (are_parts) result = parts.soup;
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
-    const NearestFaces nearest = nearest_faces(source, result, limit_m);
     turn_open_parts_up(kWeldShare * limit_m, result);
+    if (are_parts && are_of_one_colour(source, parts)) return result;
+    const NearestFaces nearest = nearest_faces(source, result, limit_m);
     recolour(source, source_tree, nearest, limit_m, result);
     if (are_parts) return result;
     keep_breadth(source, source_tree, nearest, limit_m, result);

@@ -145,11 +145,20 @@ Proposal lid_over(const Seen& seen, const Outline& ring) {
     return {lid, lid};
 }
 
-Proposal sheet_over(const Seen& seen) {
+/// How far what stands for a part leans: its foot one way, its head the other. Who looks along the axis sees as much of it as of
+/// the part, as far as the limit allows.
+/// @param room_m  what the limit leaves of it, upright
+glm::dvec2 lean_of(const Seen& seen, const Line& line, double room_m) {
+    const double half_m = glm::length(line.half), across_m = 0.5 * short_side_m(seen.rectangle);
+    if (!(half_m > 0.0) || !(room_m > 0.0)) return glm::dvec2(0.0);
+    return std::min(kReachShare * room_m, across_m) / half_m * glm::dvec2(-line.half.y, line.half.x);
+}
+
+Proposal sheet_over(const Seen& seen, const glm::dvec2& lean) {
     const Line line = long_line(seen.rectangle);
     FaceSoup sheet;
-    for (const double z : {seen.low_m, seen.high_m}) {
-        for (const glm::dvec2& corner : {line.middle - line.half, line.middle + line.half})
+    for (const auto& [z, aside] : {std::pair(seen.low_m, -lean), std::pair(seen.high_m, lean)}) {
+        for (const glm::dvec2& corner : {line.middle + aside - line.half, line.middle + aside + line.half})
             sheet.points.push_back(seen.part_from_axes * glm::dvec3(corner.x, corner.y, z));
     }
     sheet.faces = {{0, 1, 3}, {0, 3, 2}};
@@ -157,7 +166,7 @@ Proposal sheet_over(const Seen& seen) {
 }
 
 /// Foot below, tip above.
-Proposal spike_over(const Seen& seen, double limit_m) {
+Proposal spike_over(const Seen& seen, const glm::dvec2& lean, double limit_m) {
     const Line line = long_line(seen.rectangle);
     const double half = glm::length(line.half);
     FaceSoup spike;
@@ -166,8 +175,8 @@ Proposal spike_over(const Seen& seen, double limit_m) {
     const auto at = [&](const glm::dvec2& p, double z) {
         return seen.part_from_axes * glm::dvec3(p.x, p.y, z);
     };
-    spike.points = {at(line.middle - foot, seen.low_m), at(line.middle + foot, seen.low_m),
-                    at(line.middle, seen.high_m)};
+    spike.points = {at(line.middle - lean - foot, seen.low_m), at(line.middle - lean + foot, seen.low_m),
+                    at(line.middle + lean, seen.high_m)};
     spike.faces = {{0, 1, 2}};
     return {spike, spike};
 }
@@ -243,14 +252,22 @@ glm::dvec3 long_axis(const std::vector<glm::dvec3>& points) {
 /// Proposals along one axis that look near enough, fewest faces first.
 void propose_along(const Seen& seen, size_t faces, double limit_m, std::vector<Proposal>& out) {
     const Line line = long_line(seen.rectangle);
+    const glm::dvec2 upright(0.0);
     double farthest = 0.0;
     for (const glm::dvec2& corner : seen.outline)
         farthest = std::max(farthest, glm::distance(corner, line.middle));
     const bool is_slender = seen.high_m - seen.low_m >= 2.0 * kSlender * glm::length(line.half);
-    if (farthest <= limit_m) out.push_back(is_slender ? card_over(seen, limit_m) : spike_over(seen, limit_m));
+    if (farthest <= limit_m && is_slender) out.push_back(card_over(seen, limit_m));
+    if (farthest <= limit_m && !is_slender) {
+        out.push_back(spike_over(seen, lean_of(seen, line, limit_m - farthest), limit_m));
+        out.push_back(spike_over(seen, upright, limit_m));
+    }
     if (kPairShare * farthest <= limit_m && farthest > limit_m) out.push_back(pair_over(seen));
-    if (corner_distance(seen.outline, {line.middle - line.half, line.middle + line.half}) <= limit_m)
-        out.push_back(sheet_over(seen));
+    const double off_m = corner_distance(seen.outline, {line.middle - line.half, line.middle + line.half});
+    if (off_m <= limit_m) {
+        out.push_back(sheet_over(seen, lean_of(seen, line, limit_m - off_m)));
+        out.push_back(sheet_over(seen, upright));
+    }
     if (seen.outline.size() < 3) return;
     const double height_m = seen.high_m - seen.low_m;
     const bool is_flat = height_m <= 2.0 * limit_m && height_m <= kFlatShare * short_side_m(seen.rectangle);

@@ -5,7 +5,7 @@
 
 namespace objects {
 
-/// Turns those faces of open parts that look down; closed parts, which show one side only, stay. The surface stays.
+/// Turns those faces of open parts that look down, but walls; closed parts, which show one side only, stay. The surface stays.
 /// @param cell_m  > 0; points that near to each other hold a part together
 /// Cost: O(n log n).
 void turn_open_parts_up(double cell_m, FaceSoup& soup);

@@ -150,7 +150,8 @@ objects::ClusterTree build_tree(const std::string& path) {
     options.spent_share = 0.02;  // no two prisms are alike: what is nearly exact pays
     options.levels_per_doubling = 4;
     options.first_sizes = 3.36;
-    options.error_share = 0.0141;  // small clusters for their error: what is near does not decide for what is far
+    options.error_share =
+        0.0141;  // small clusters for their error: what is near does not decide for what is far
     const double begin = now_ms();
     objects::ClusterTree tree = objects::build_cluster_tree(bench::prism_city(), options);
     std::fprintf(stderr, "city: built in %.1f s\n", (now_ms() - begin) / 1e3);

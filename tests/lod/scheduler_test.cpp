@@ -13,7 +13,8 @@ namespace {
 /// Each place has an error of base / 2^level; a level costs two triangles.
 class Halving final : public lod::Front {
   public:
-    explicit Halving(std::vector<double> base) : base_(std::move(base)), level_(base_.size(), 0) {}
+    explicit Halving(std::vector<double> base, double coarsen_ratio = 0.6)
+        : base_(std::move(base)), level_(base_.size(), 0), coarsen_ratio_(coarsen_ratio) {}
 
     void begin_frame(std::span<const lod::View>, double) override {}
     double refine_error_px() override { return error_at(worst()); }
@@ -21,6 +22,7 @@ class Halving final : public lod::Front {
         const size_t i = cheapest();
         return i == level_.size() ? std::numeric_limits<double>::infinity() : 2.0 * error_at(i);
     }
+    double coarsen_ratio() const override { return coarsen_ratio_; }
     lod::Step refine() override {
         ++level_[worst()];
         return {2, 1};
@@ -47,6 +49,7 @@ class Halving final : public lod::Front {
 
     std::vector<double> base_;
     std::vector<int> level_;
+    double coarsen_ratio_;
 
   private:
     double error_at(size_t i) const { return std::ldexp(base_[i], -level_[i]); }
@@ -71,6 +74,21 @@ TEST(Scheduler, ReachesTheToleranceAndStops) {
     EXPECT_TRUE(lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000)).converged);
     EXPECT_LE(std::max(a.error_px(), b.error_px()), 1.0);
     EXPECT_EQ(lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000)).operations, 0u);
+}
+
+/// What one front clings to keeps no other from letting go.
+TEST(Scheduler, TakesBackByEachFrontsOwnHysteresis) {
+    Halving clinging({8.0}, 0.6), letting_go({8.0}, 0.95);
+    lod::Front* fronts[] = {&clinging, &letting_go};
+    lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000));
+    ASSERT_EQ(clinging.level_[0], 3);
+    clinging.base_ = {3.4}, letting_go.base_ = {3.6};  // a level less is 0.85 and 0.9 px
+    lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000));
+    EXPECT_EQ(clinging.level_[0], 3);
+    EXPECT_EQ(letting_go.level_[0], 2);
+    letting_go.base_ = {3.96};  // 0.99
+    lod::schedule(fronts, {.tolerance_px = 1.0}, lod::operation_limit(1000));
+    EXPECT_EQ(letting_go.level_[0], 2);
 }
 
 TEST(Scheduler, SharesOneLimitBetweenFronts) {

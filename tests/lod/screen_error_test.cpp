@@ -27,8 +27,8 @@ glm::dvec3 random_direction(lod::Rng& rng) {
 /// A box whose middle is in view: flat, long or small, near or far, turned at random.
 lod::EyeBox random_box(lod::Rng& rng, const lod::ViewMetric& metric) {
     const double depth_m = std::exp(rng.between(0.0, 8.0));
-    const glm::dvec3 middle(depth_m * metric.tan_x * rng.between(-1, 1), depth_m * metric.tan_y * rng.between(-1, 1),
-                            -depth_m);
+    const glm::dvec3 middle(depth_m * metric.tan_x * rng.between(-1, 1),
+                            depth_m * metric.tan_y * rng.between(-1, 1), -depth_m);
     const glm::dvec3 x = random_direction(rng), y = glm::normalize(glm::cross(x, random_direction(rng))),
                      z = glm::cross(x, y);
     const double size_m = depth_m * std::exp(rng.between(-6.0, 0.5));
@@ -46,7 +46,8 @@ glm::dvec3 point_in(const lod::EyeBox& box, const glm::dvec3& share) {
 }
 
 bool is_in_view(const lod::ViewMetric& metric, const glm::dvec3& p) {
-    return -p.z >= metric.near_m && std::abs(p.x) <= -p.z * metric.tan_x && std::abs(p.y) <= -p.z * metric.tan_y;
+    return -p.z >= metric.near_m && std::abs(p.x) <= -p.z * metric.tan_x &&
+           std::abs(p.y) <= -p.z * metric.tan_y;
 }
 
 glm::dvec2 image_px(const lod::ViewMetric& metric, const glm::dvec3& p) {
@@ -78,6 +79,29 @@ TEST(BoxScreenError, NoPointOfTheBoxMovesFarther) {
     }
 }
 
+/// Far from the line of sight the worst point of an edge may lie between its ends: here both cost the same.
+TEST(BoxScreenError, HoldsBetweenCornersAtWideAngles) {
+    const lod::ViewMetric metric =
+        lod::metric_of({.fov_y_rad = 2.4, .width_px = 640, .height_px = 360, .near_m = 0.1});
+    for (double near_slant = 1.05; near_slant < 3.0; near_slant += 0.1) {
+        for (double far_slant = near_slant + 0.1; far_slant < 4.0; far_slant += 0.1) {
+            const auto at = [](double slant) {
+                return glm::dvec3(slant * std::sqrt(slant * slant - 1.0), 0.0, -slant);
+            };
+            lod::EyeBox box;
+            for (size_t i = 0; i < box.size(); ++i)
+                box[i] = (i & 1) != 0 ? at(far_slant) : at(near_slant);
+            for (double share = 0.0; share <= 1.0; share += 0.05) {
+                const glm::dvec3 p = point_in(box, {share, 0.0, 0.0});
+                if (!is_in_view(metric, p)) continue;
+                ASSERT_LE(most_moved_px(metric, p, 1e-6),
+                          lod::screen_error_px(metric, box, 1e-6) * (1.0 + 1e-4))
+                    << near_slant << " to " << far_slant;
+            }
+        }
+    }
+}
+
 /// A bound that is never reached would cost triangles.
 TEST(BoxScreenError, SomePointOfTheBoxMovesAsFar) {
     lod::Rng rng(12);
@@ -93,7 +117,9 @@ TEST(BoxScreenError, SomePointOfTheBoxMovesAsFar) {
         const double error_m = 1e-6 * glm::length(box[0]);
         double most_px = 0.0;
         for (int i = 0; i < 8; ++i)
-            most_px = std::max(most_px, most_moved_px(metric, point_in(box, glm::dvec3(i & 1, i >> 1 & 1, i >> 2)), error_m));
+            most_px = std::max(
+                most_px,
+                most_moved_px(metric, point_in(box, glm::dvec3(i & 1, i >> 1 & 1, i >> 2)), error_m));
         ASSERT_NEAR(lod::screen_error_px(metric, box, error_m), most_px, 1e-3 * most_px) << round;
     }
     EXPECT_GT(looked_at, 3000);

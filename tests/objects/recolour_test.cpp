@@ -47,6 +47,46 @@ TEST(Recolour, HalvesOfAWallAreAlike) {
     EXPECT_EQ(wall.colours[2], glm::u8vec4(9, 9, 9, 255));
 }
 
+/// Two halves of a wall, one of which contraction has turned over; and a wall that is seen from both sides alike.
+TEST(Recolour, WhatShowsItsBackIsTurnedOver) {
+    FaceSoup house, wall;
+    add_rectangle({0.0, 0.0}, {10.0, 4.0}, 0.0, {40, 40, 80, 255}, house);
+    add_rectangle({0.0, 4.0}, {10.0, 12.0}, 0.0, {200, 200, 200, 255}, house);
+    add_rectangle({0.0, 0.0}, {10.0, 12.0}, 0.05, {200, 200, 200, 255}, wall);
+    const FaceSoup before = wall;
+    std::swap(wall.faces[1][1], wall.faces[1][2]);
+    recolour(house, lod::TriangleTree(house.view()), nearest_faces(house, wall, 0.2), 0.2, wall);
+    EXPECT_EQ(wall.faces, before.faces);
+    EXPECT_EQ(wall.colours[0], wall.colours[1]);
+
+    for (const size_t face : {0u, 1u, 2u, 3u}) {
+        const auto [a, b, c] = house.faces[face];
+        house.faces.push_back({a, c, b});
+        house.colours.push_back(house.colours[face]);
+    }
+    wall = before;
+    std::swap(wall.faces[0][1], wall.faces[0][2]);
+    const FaceSoup as_it_is = wall;
+    recolour(house, lod::TriangleTree(house.view()), nearest_faces(house, wall, 0.2), 0.2, wall);
+    EXPECT_EQ(wall.faces, as_it_is.faces);
+}
+
+/// Bands of windows on a wall that is one face: a few points would all meet windows, or none.
+TEST(Recolour, BandsOfWindowsAreMetByTheirShare) {
+    for (int bands = 3; bands < 25; ++bands) {
+        FaceSoup house, wall;
+        const double storey_m = 36.0 / bands;
+        add_rectangle({0.0, 0.0}, {20.0, 36.0}, 0.0, {200, 200, 200, 255}, house);
+        for (int band = 0; band < bands; ++band)
+            add_rectangle({0.0, storey_m * band}, {20.0, storey_m * (band + 0.5)}, -0.05, {40, 40, 80, 255},
+                          house);
+        add_rectangle({0.0, 0.0}, {20.0, 36.0}, 0.3, {200, 200, 200, 255}, wall);
+        recolour(house, lod::TriangleTree(house.view()), nearest_faces(house, wall, 4.0), 4.0, wall);
+        EXPECT_NEAR(wall.colours[0].x, 144, 16) << bands;  // sqrt((200² + 40²) / 2)
+        EXPECT_EQ(wall.colours[0], wall.colours[1]);
+    }
+}
+
 /// A pane on a wall, a roof on a house: what they hide is not seen.
 TEST(Recolour, WhatIsHiddenDoesNotCount) {
     FaceSoup layers;

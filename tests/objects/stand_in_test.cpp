@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "objects/reduction/outline.h"
 #include "tests/bench/prism_city.h"
@@ -28,7 +29,7 @@ FaceSoup prism(uint32_t sides, double radius_m, double height_m) {
 TEST(StandIn, IsAsNearAsAsked) {
     for (const uint32_t sides : {4u, 12u, 48u, 104u}) {
         const FaceSoup part = prism(sides, 3.25, 12.0);
-        for (const double limit_m : {0.3, 0.6, 1.2, 2.4, 3.0, 4.0}) {
+        for (const double limit_m : {0.3, 0.6, 1.2, 2.4, 3.0, 4.0, 5.0, 7.0}) {
             const FaceSoup found = objects::stand_in(part, limit_m).soup;
             if (found.faces.empty()) continue;
             EXPECT_LE(objects_test::sampled_both_ways_m(part, found, 0.1), limit_m)
@@ -49,6 +50,26 @@ TEST(StandIn, TakesTheFewestFacesThatWillDo) {
     EXPECT_EQ(faces(2.50), 8u);
     EXPECT_EQ(faces(2.75), 2u);
     EXPECT_EQ(faces(3.30), 1u);
+}
+
+/// Of what a soup covers of the ground: doubled area, one layer of it.
+double area_from_above_m2(const FaceSoup& soup) {
+    double area_m2 = 0.0;
+    for (size_t face = 0; face < soup.faces.size(); ++face) {
+        const lod::Triangle t = soup.view().triangle(face);
+        area_m2 += 0.5 * std::abs(glm::cross(t.b - t.a, t.c - t.a).z);
+    }
+    return area_m2;
+}
+
+/// A single upright face would be a line to who flies over it.
+TEST(StandIn, IsSeenFromAboveWhereTheLimitAllows) {
+    const double footprint_m2 = std::numbers::pi * 3.25 * 3.25;
+    for (const double limit_m : {5.0, 7.0, 9.0}) {
+        const FaceSoup found = objects::stand_in(prism(104, 3.25, 12.0), limit_m).soup;
+        ASSERT_EQ(found.faces.size(), 1u);
+        EXPECT_GT(area_from_above_m2(found), 0.4 * footprint_m2) << limit_m;
+    }
 }
 
 TEST(StandIn, WhatIsNoPrismHasNone) {

@@ -127,10 +127,17 @@ class TwoPictures {
 
     const objects::ClusterTree& tree() const { return front_.tree(); }
 
-    PictureTally compare(const lod::View& view, double time_s, double tolerance_px) {
-        const render::DepthImage drawn = picture(front_, view, time_s, tolerance_px, 1);
-        const render::DepthImage full = picture(every_, view, time_s, 0.0, 1);
-        return PictureJudge(view, front_.error_px()).judge(full, drawn);
+    /// Compared `factor` times as large as the view that the bound is of: the finer, the less falls between the middles of
+    /// pixels. @param factor  the renderer's size in sizes of the view
+    PictureTally compare(const lod::View& view, double time_s, double tolerance_px, int factor) {
+        const render::DepthImage drawn = picture(front_, view, time_s, tolerance_px, factor);
+        const render::DepthImage full = picture(every_, view, time_s, 0.0, factor);
+        lod::View judged = view;
+        judged.width_px *= factor;
+        judged.height_px *= factor;
+        PictureTally tally = PictureJudge(judged, factor * front_.error_px()).judge(full, drawn);
+        tally.largest_bound_px /= factor;
+        return tally;
     }
 
     /// Both pictures, `factor` times as large as the view that the bound is of.
