@@ -1,4 +1,5 @@
-// ClusterSieve: takes the triangles that no pixel shows out of what clusters draw (lod/triangle_sieve.h).
+// ClusterSieve: takes the triangles that no pixel shows out of what clusters draw (lod/triangle_sieve.h), and puts what is left of
+// one instance together in one command.
 //
 //     picture  | strip | strip | strip | strip |    judged by themselves, on as many threads
 //
@@ -34,7 +35,7 @@ class ClusterSieve {
     /// Takes note of the opaque items from `first_item` on, all those of one cluster. Clusters come from near to far.
     void add(const Scene& scene, const Cluster& cluster, size_t first_item, const lod::DrawList& out);
 
-    /// Replaces the items of each cluster by one with what may show of them, or by none; what stands between them stays. The
+    /// Replaces the items of neighbours with one instance by one with what may show of them, or by none; glass stays. The
     /// indices stand behind the tree's own in the region: a write says so. Learns from the frame.
     /// @returns triangles left out
     uint64_t finish(const Scene& scene, unsigned threads, lod::DrawList& out);

@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr int kWidth_px = 640, kHeight_px = 360;
+constexpr int kWidth_px = 320, kHeight_px = 180, kFactor = 3;
 constexpr size_t kMostFaces = 200'000;  ///< of what a cluster stands for, lest one takes minutes
 
 /// Clusters of all sizes: as many of each level as there are draws for it.
@@ -69,7 +69,7 @@ uint64_t false_pixels(sim_test::TwoPictures& pictures, int count, lod::Rng& rng)
         const lod::View view =
             lod::look_at(around(reach_m, 2.0, 0.6 * reach_m), around(60.0, 0.0, 200.0), {0, 0, 1}, optics);
         const double time_s = rng.between(0.0, pictures.tree().end_s), tolerance_px = rng.between(1.0, 4.0);
-        const sim_test::PictureTally tally = pictures.compare(view, time_s, tolerance_px);
+        const sim_test::PictureTally tally = pictures.compare(view, time_s, tolerance_px, kFactor);
         if (tally.contradicting > 0)
             std::printf("picture %d at %.1f s, %.2f px: %lu pixels contradict\n", i, time_s,
                         tally.largest_bound_px, tally.contradicting);
@@ -91,7 +91,7 @@ int main(int count, char** words) {
     objects::ClusterTree tree = objects_test::build(scene);
     lod::Rng rng(1);
     const int failed = false_clusters(scene, tree, clusters, rng);
-    auto renderer = sim_test::TwoPictures::make_renderer(tree, kWidth_px, kHeight_px);
+    auto renderer = sim_test::TwoPictures::make_renderer(tree, kFactor * kWidth_px, kFactor * kHeight_px);
     if (!renderer) {
         std::fprintf(stderr, "%s\n", renderer.message().c_str());
         return 1;
