@@ -9,12 +9,13 @@
 #include <fstream>
 
 #include "data/generated_altimeter.h"
+#include "tests/data/own_path.h"
 
 namespace data {
 namespace {
 
 std::string temporary(const char* name) {
-    return (std::filesystem::temp_directory_path() / name).string();
+    return test::own_path(name);
 }
 
 const MeshNode* find(const PolygonMesh& mesh, const std::string& name) {

@@ -13,6 +13,7 @@
 
 #include "data/time_text.h"
 #include "lod/base/rng.h"
+#include "tests/data/own_path.h"
 
 namespace {
 
@@ -27,7 +28,7 @@ fs::path shared_data() {
 }
 
 std::string write_file(const std::string& name, const std::string& content) {
-    const std::string path = testing::TempDir() + "motion_" + name;
+    const std::string path = test::own_path(name);
     std::ofstream(path, std::ios::binary) << content;
     return path;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/polygon_mesh.h"
+#include "tests/data/own_path.h"
 
 namespace test {
 
@@ -24,7 +25,7 @@ inline fs::path shared_data() {
 }
 
 inline std::string file_path(const std::string& name) {
-    return testing::TempDir() + "polygon_mesh_" + name;
+    return own_path(name);
 }
 
 inline std::string write_file(const std::string& name, const std::string& content) {

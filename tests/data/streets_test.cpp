@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "data/generated_town.h"
+#include "tests/data/own_path.h"
 
 namespace {
 
@@ -15,7 +16,7 @@ using data::Street;
 const data::WorldFrame kPlane{false}, kEarth{true};
 
 std::string write_lines(const std::string& name, const std::vector<std::string>& properties) {
-    const std::string path = testing::TempDir() + "streets_" + name;
+    const std::string path = test::own_path(name);
     std::ofstream file(path);
     file << R"({"type":"FeatureCollection","features":[)";
     for (size_t i = 0; i < properties.size(); ++i) {
@@ -56,7 +57,7 @@ TEST(Streets, ATruncatedFileIsOneLine) {
     const std::string whole = write_lines("whole.geojson", {R"("highway":"primary")"});
     std::string text;
     std::getline(std::ifstream(whole), text, '\0');
-    const std::string cut = testing::TempDir() + "streets_cut.geojson";
+    const std::string cut = test::own_path("cut.geojson");
     std::ofstream(cut) << text.substr(0, text.size() / 2);
     for (const std::string& path : {cut, std::string("/nowhere/streets.geojson")}) {
         const auto streets = data::read_streets(path, kPlane);
