@@ -13,7 +13,7 @@ namespace objects {
 struct CutRecord {
     ClusterId id = kNoCluster;
     bool is_refined : 1 = false;   ///< its children stand for it
-    bool is_seen : 1 = false;      ///< in view of some eye, by its sphere, and not hidden from it
+    bool is_seen : 1 = false;      ///< in view of some eye, by its box, and not hidden from it
     bool is_hidden : 1 = false;    ///< from some eye, behind solids of others
     bool is_occluder : 1 = false;  ///< its solids hide others
     bool has_event : 1 = false;    ///< its presence was looked up in this frame

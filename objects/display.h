@@ -14,8 +14,8 @@ namespace objects {
 ///
 /// @param drawn  cleared first
 /// @returns the largest error of what the traversal ended at, drawn or not, px
-/// Source: Semenov, Shutkin, Zolotov et al. (2020), appendix 1. Differs from it in: the error is in pixels, with the
-/// sphere's nearest visible point as distance (lod/screen_error.h).
+/// Source: Semenov, Shutkin, Zolotov et al. (2020), appendix 1. Differs from it in: the error is in pixels, taken at
+/// the worst corner of the box (lod/screen_error.h).
 double display(const ClusterTree& tree, std::span<const SceneView> views, double time_s, double tolerance_px,
                std::vector<ClusterId>& drawn);
 

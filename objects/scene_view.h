@@ -41,7 +41,7 @@ SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double ti
 lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
                        double time_s);
 
-/// What an eye sees of a cluster, or of its box and what may be wrong in it.
+/// What an eye sees of a cluster.
 struct ClusterSight {
     bool is_seen = false;   ///< some of the box may be in the picture
     double error_px = 0.0;  ///< what the error can cost; 0 unless seen; finite

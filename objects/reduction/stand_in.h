@@ -10,7 +10,8 @@
 //
 // Contraction cuts corners one by one and only outwards, so it comes late from one of these to the next; here the next is
 // proposed as a whole and proved. Prisms are closed. A spike stands for a part that is nowhere farther from its
-// axis than the limit, and covers as much as the part seen from the side, as far as the limit allows.
+// axis than the limit, and covers as much as the part seen from the side, as far as the limit allows. Sheets and spikes lean,
+// foot one way and head the other, as far as it allows: so they show from above, too.
 #pragma once
 
 #include "objects/reduction/face_soup.h"
