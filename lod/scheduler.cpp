@@ -63,13 +63,15 @@ class Bargain {
     }
 
   private:
-    /// Takes back what no front needs for the tolerance.
+    /// Takes back what its front does not need for the tolerance, where it is needed least.
     bool release() {
+        Choice least{nullptr, budget_.tolerance_px};
         for (Front* front : fronts_) {
-            const double release_px = budget_.tolerance_px * front->coarsen_ratio();
-            if (front->coarsen_error_px() < release_px && front->coarsen(release_px).steps > 0) return true;
+            const double error_px = front->coarsen_error_px() / front->coarsen_ratio();
+            if (error_px < least.error_px) least = {front, error_px};
         }
-        return false;
+        return least.front &&
+               least.front->coarsen(budget_.tolerance_px * least.front->coarsen_ratio()).steps > 0;
     }
     bool is_gain(const Choice& high) const { return high.error_px > paid_px_ * budget_.swap_ratio; }
     bool refine(const Choice& high) { return is_gain(high) && high.front->refine().steps > 0; }

@@ -56,8 +56,8 @@ inline bool is_outside(const ViewMetric& metric, const EyeBox& box) {
     return is_right || is_left || is_above || is_below || is_behind;
 }
 
-/// Of the eye, metres; 0 inside.
-inline double distance_to(const EyeBox& box) {
+/// From the eye to the nearest point of a box, metres; 0 inside.
+inline double distance_to_eye_m(const EyeBox& box) {
     glm::dvec3 nearest = box[0];
     for (const size_t far : {1u, 2u, 4u}) {
         const glm::dvec3 axis = box[far] - box[0];
@@ -74,6 +74,7 @@ inline double distance_to(const EyeBox& box) {
 /// h(z) = z sqrt(k^2 z^2 - 1). h is concave as long as k z, which is d/z there, is at most sqrt(3/2), and a set under a concave
 /// curve, cut off by the cone d/z = sqrt(3/2), is convex: with its corners it holds the box.
 ///
+/// @param box      holds a point both where it is and where it is shown, hence the way between
 /// @param error_m  >= 0
 /// @returns pixels, >= 0 and finite; whether anything of it is in view is not tested here (is_outside does)
 /// Cost: about 30 ns.
@@ -89,7 +90,7 @@ inline double screen_error_px(const ViewMetric& metric, const EyeBox& box, doubl
     }
     const bool is_ahead = front_m >= metric.near_m;
     if (is_ahead && slant_2 <= kCone_2) return metric.lambda_px * error_m * std::sqrt(worst_2);
-    const double depth_m = std::max({front_m, distance_to(box) / metric.stretch, metric.near_m});
+    const double depth_m = std::max({front_m, distance_to_eye_m(box) / metric.stretch, metric.near_m});
     const double slant = is_ahead ? std::min(std::sqrt(slant_2), metric.stretch) : metric.stretch;
     return metric.lambda_px * error_m * slant / depth_m;
 }

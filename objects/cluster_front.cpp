@@ -44,9 +44,10 @@ void ClusterFront::evaluate(CutRecord& record) {
     const Cluster& cluster = tree_.clusters[record.id];
     const double error_m = timed_error_m(cluster, record.presence.share);
     for (size_t eye = 0; eye < sights_.size(); ++eye) {
-        const ClusterSight sight = sight_of(sights_[eye], tree_, cluster, time_s_, error_m);
+        const lod::EyeBox box = box_in_eye(tree_, cluster, sights_[eye], time_s_);
+        const ClusterSight sight = sight_of(sights_[eye], box, error_m);
         if (!sight.is_seen) continue;
-        if (occlusion_.hides(tree_, eye, sights_[eye], cluster, time_s_)) {
+        if (occlusion_.hides(eye, box)) {
             record.is_hidden = true;
             continue;
         }

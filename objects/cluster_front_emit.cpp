@@ -36,7 +36,8 @@ void ClusterFront::line_up(const SceneView& sight) {
     for (const CutRecord& record : cut_) {
         if (!record.is_drawn()) continue;
         const Cluster& cluster = tree_.clusters[record.id];
-        if (!is_only_eye && !sight_of(sight, tree_, cluster, time_s_, 0.0).is_seen) continue;
+        if (!is_only_eye && lod::is_outside(sight.metric, box_in_eye(tree_, cluster, sight, time_s_)))
+            continue;
         const SceneSphere sphere = sphere_at(tree_, cluster, time_s_);
         line_.push_back({static_cast<float>(glm::dot(ahead, sphere.centre - sight.eye_scene)), record.id});
     }

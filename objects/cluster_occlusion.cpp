@@ -93,10 +93,4 @@ void ClusterOcclusion::clear() {
     is_empty_ = true, moves_ = false;
 }
 
-bool ClusterOcclusion::hides(const ClusterTree& tree, size_t eye, const SceneView& sight,
-                             const Cluster& cluster, double time_s) const {
-    if (is_empty_) return false;
-    return maps_[eye].hides(box_in_eye(tree, cluster, sight, time_s));
-}
-
 }  // namespace objects

@@ -23,9 +23,8 @@ class ClusterOcclusion {
     /// From now on nothing is hidden.
     void clear();
 
-    /// Whether an eye sees nothing of a cluster, as all of its box lies behind solids in that picture.
-    bool hides(const ClusterTree& tree, size_t eye, const SceneView& sight, const Cluster& cluster,
-               double time_s) const;
+    /// Whether an eye sees nothing of a box, as all of it lies behind solids in that picture.
+    bool hides(size_t eye, const lod::EyeBox& box) const { return !is_empty_ && maps_[eye].hides(box); }
 
     /// Says how many of the clusters in view were hidden, so that the next map has more occluders or fewer, or none for some
     /// frames: they pay in streets, hardly from above.

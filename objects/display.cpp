@@ -19,7 +19,7 @@ struct Traversal {
         ClusterSight sight;
         for (const SceneView& view : views) {
             const ClusterSight one =
-                sight_of(view, tree, cluster, time_s, timed_error_m(cluster, visibility));
+                sight_of(view, box_in_eye(tree, cluster, view, time_s), timed_error_m(cluster, visibility));
             sight.is_seen = sight.is_seen || one.is_seen;
             sight.error_px = std::max(sight.error_px, one.error_px);
         }

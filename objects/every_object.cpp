@@ -36,7 +36,7 @@ void EveryObject::emit(const lod::View& view, lod::DrawList& out) {
     ClusterItems items(tree_, place_, region_, view, time_s_);
     for (const Leaf& leaf : leaves_) {
         if (leaf.presence.share <= 0.0) continue;
-        if (sight_of(sight, tree_, tree_.clusters[leaf.id], time_s_, 0.0).is_seen)
+        if (!lod::is_outside(sight.metric, box_in_eye(tree_, tree_.clusters[leaf.id], sight, time_s_)))
             items.add_whole(leaf.id, out);
     }
     emitted_ = items.triangles();

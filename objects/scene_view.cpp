@@ -48,9 +48,7 @@ lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const Sc
     return corners;
 }
 
-ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s,
-                      double error_m) {
-    const lod::EyeBox box = box_in_eye(tree, cluster, view, time_s);
+ClusterSight sight_of(const SceneView& view, const lod::EyeBox& box, double error_m) {
     if (lod::is_outside(view.metric, box)) return {};
     return {true, lod::screen_error_px(view.metric, box, error_m)};
 }

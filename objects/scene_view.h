@@ -41,14 +41,13 @@ SceneSphere sphere_at(const ClusterTree& tree, const Cluster& cluster, double ti
 lod::EyeBox box_in_eye(const ClusterTree& tree, const Cluster& cluster, const SceneView& sight,
                        double time_s);
 
-/// What an eye sees of a cluster.
+/// What an eye sees of a box in its frame.
 struct ClusterSight {
     bool is_seen = false;   ///< some of the box may be in the picture
     double error_px = 0.0;  ///< what the error can cost; 0 unless seen; finite
 };
-/// @param error_m  of what is in the cluster's box
-ClusterSight sight_of(const SceneView& view, const ClusterTree& tree, const Cluster& cluster, double time_s,
-                      double error_m);
+/// @param error_m  of what is in the box, >= 0
+ClusterSight sight_of(const SceneView& view, const lod::EyeBox& box, double error_m);
 
 /// Pose of a cluster's geometry; the scene frame itself for one that has no motion.
 data::ObjectPose pose_of(const ClusterTree& tree, const Cluster& cluster, double time_s);

@@ -4,7 +4,7 @@
 //
 //     city_flight TREE.hdlod [TOLERANCE_PX [FRAMES [WAY [SUFFIX.png]]]]
 //
-// The tree is read from the file, or built and kept there, which takes half an hour of processors.
+// The tree is read from the file, or built and kept there, which takes a quarter of an hour and more.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -131,7 +131,7 @@ TEST(BoxScreenError, IsFiniteAroundTheEye) {
     for (size_t i = 0; i < box.size(); ++i)
         box[i] = {(i & 1) != 0 ? 3.0 : -3.0, (i & 2) != 0 ? 3.0 : -3.0, (i & 4) != 0 ? 3.0 : -3.0};
     EXPECT_NEAR(lod::screen_error_px(metric, box, 1.0), metric.lambda_px * metric.stretch / 0.5, 1e-9);
-    EXPECT_EQ(lod::distance_to(box), 0.0);
+    EXPECT_EQ(lod::distance_to_eye_m(box), 0.0);
     box.fill({0.0, 0.0, 0.0});
     EXPECT_TRUE(std::isfinite(lod::screen_error_px(metric, box, 1.0)));
     EXPECT_EQ(lod::screen_error_px(metric, box, 0.0), 0.0);
@@ -162,8 +162,8 @@ TEST(BoxScreenError, DistanceIsOfTheNearestPoint) {
         for (int sample = 0; sample < 300; ++sample)
             nearest_m = std::min(nearest_m, glm::length(point_in(box, {rng.unit(), rng.unit(), rng.unit()})));
         const double diagonal_m = glm::distance(box[0], box[7]);
-        ASSERT_LE(lod::distance_to(box), nearest_m * (1.0 + 1e-12));
-        ASSERT_GE(lod::distance_to(box), nearest_m - 0.5 * diagonal_m);
+        ASSERT_LE(lod::distance_to_eye_m(box), nearest_m * (1.0 + 1e-12));
+        ASSERT_GE(lod::distance_to_eye_m(box), nearest_m - 0.5 * diagonal_m);
     }
 }
 
