@@ -51,7 +51,7 @@ class ClusterFront final : public lod::Front {
     /// @param threads  look for them; what is found is the same
     void set_hiding(Hiding hiding, unsigned threads = 1) { hiding_ = hiding, threads_ = threads; }
 
-    /// 0.95 unless told otherwise: a whole cluster is exchanged for another by one step, so hysteresis is worth little.
+    /// 0.98 unless told otherwise: a whole cluster is exchanged for another by one step, so hysteresis is worth little.
     /// @param ratio  in (0, 1]; with 1 the cut follows from view and time alone
     void set_coarsen_ratio(double ratio) { coarsen_ratio_ = ratio; }
     double coarsen_ratio() const override { return coarsen_ratio_; }
@@ -106,7 +106,7 @@ class ClusterFront final : public lod::Front {
     ScenePlace place_;
     Hiding hiding_ = Hiding::kClusters;
     unsigned threads_ = 1;
-    double coarsen_ratio_ = 0.95;
+    double coarsen_ratio_ = 0.98;
     ClusterCut cut_;
     ClusterOcclusion occlusion_;
     bool is_uncovered_ = false;  ///< some occluder is no longer drawn

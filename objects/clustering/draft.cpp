@@ -10,6 +10,7 @@
 #include "lod/base/parallel.h"
 #include "objects/clustering/for_each_item.h"
 #include "objects/clustering/stays.h"
+#include "objects/reduction/fat_faces.h"
 #include "objects/reduction/reduce.h"
 
 namespace objects {
@@ -31,7 +32,7 @@ FaceSoup soup_of(const data::TimedMesh& mesh) {
             sum += glm::uvec4(mesh.colours[corner]);
         soup.colours.push_back(glm::u8vec4((sum + 1u) / 3u));
     }
-    return soup;
+    return with_fat_faces(soup);
 }
 
 /// Finds equal things by hash: `same(number)` decides.

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "objects/clustering/alive_tree.h"
+#include "objects/alive_tree.h"
 #include "objects/clustering/draft.h"
 
 namespace objects {

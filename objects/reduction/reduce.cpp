@@ -84,8 +84,8 @@ void mend(const FaceSoup& source, const StandIns& parts, const Failures& failure
     for (uint32_t face : missing) {
         const uint32_t part = parts.part_of_source[face];
         if (parts.is_replaced[part] != 0) {
-            std::fill(is_wanted.begin() + parts.first_face[part],
-                      is_wanted.begin() + parts.first_face[part + 1], uint8_t{1});
+            for (const uint32_t wanted : parts.faces_of_part[part])
+                is_wanted[wanted] = 1;
             continue;
         }
         patch.faces.push_back(source.faces[face]);
@@ -99,7 +99,7 @@ void mend(const FaceSoup& source, const StandIns& parts, const Failures& failure
 
 /// Whether no part that has a stand-in has two colours: then nothing of the colours is left to settle.
 bool are_of_one_colour(const FaceSoup& source, const StandIns& parts) {
-    std::vector<uint32_t> first_face(parts.is_replaced.size(), kNoFace);
+    std::vector<uint32_t> first_face(parts.part_count(), kNoFace);
     for (uint32_t face = 0; face < source.faces.size(); ++face) {
         const uint32_t part = parts.part_of_source[face];
         if (parts.is_replaced[part] == 0) continue;
@@ -114,13 +114,13 @@ bool are_of_one_colour(const FaceSoup& source, const StandIns& parts) {
 FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     CHECK(limit_m > 0.0);
     if (source.faces.empty()) return {};
-    const StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m);
+    const lod::TriangleTree source_tree(source.view());
+    const StandIns parts = stand_ins(source, source_tree, limit_m, kWeldShare * limit_m);
     const FaceSoup welded = weld(parts.to_grow, kWeldShare * limit_m).soup;
     if (welded.faces.empty()) return source;  // smaller than a cell
-    const lod::TriangleTree source_tree(source.view());
     FaceSoup result = parts.soup;
     // A single part with a stand-in has nothing to grow together with.
-    if (parts.is_replaced.size() > 1 || parts.is_replaced[0] == 0) {
+    if (parts.part_count() > 1 || parts.is_replaced[0] == 0) {
         result = propose(welded, limit_m);
         const Failures failures = find_failures(source, source_tree, result, limit_m);
         if (failures.size() > 0) mend(source, parts, failures, limit_m, result);

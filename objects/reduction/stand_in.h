@@ -9,11 +9,15 @@
 //     44 faces        12             8             2                1
 //
 // Contraction cuts corners one by one and only outwards, so it comes late from one of these to the next; here the next is
-// proposed as a whole and proved. Prisms are closed. A spike stands for a part that is nowhere farther from its
-// axis than the limit, and covers as much as the part seen from the side, as far as the limit allows. Sheets and spikes lean,
-// foot one way and head the other, as far as it allows: so they show from above, too.
+// proposed as a whole and proved. Prisms are closed. Between boxes and spikes are tents, a roof on leaning walls, and pairs of
+// leaning faces. A spike stands for a part that is nowhere farther from its axis than the limit, and covers as much as the part
+// seen from the side, as far as the limit allows. Sheets, spikes and pairs lean, foot one way and head the other, as far as it allows:
+// so they show from above, too. Faces that share no corners are gathered with their neighbours' (gather.h).
 #pragma once
 
+#include <vector>
+
+#include "lod/surface/triangle_tree.h"
 #include "objects/reduction/face_soup.h"
 
 namespace objects {
@@ -21,6 +25,7 @@ namespace objects {
 struct StandIn {
     FaceSoup soup;         ///< in one colour
     bool is_card = false;  ///< twisted; should not be merged with others: both would be too broad
+    FaceSoup to_gather;  ///< single faces that would do, too: best gathered with others' (gather.h); or none
 };
 
 /// @param part     any soup; one in one piece and convex is worth asking for
@@ -30,16 +35,22 @@ struct StandIn {
 /// Cost: O(n log n), 1 to 10 us a face. Deterministic.
 StandIn stand_in(const FaceSoup& part, double limit_m);
 
-/// Every part of a soup by its stand-in where there is one, else as it is.
+/// Every part of a soup by its stand-in where there is one, else as it is; neighbours by one for all of them where that
+/// will do.
 struct StandIns {
     FaceSoup soup;
     FaceSoup to_grow;  ///< the same, but slender parts as they are: what grows together best
     std::vector<uint32_t> part_of_source;  ///< [faces of the source]
-    std::vector<uint32_t> first_face;      ///< [parts + 1] of `soup`
-    std::vector<uint8_t> is_replaced;      ///< [parts]
+    std::vector<std::vector<uint32_t>>
+        faces_of_part;                 ///< [parts] of `soup`; gathered ones are several parts'
+    std::vector<uint8_t> is_replaced;  ///< [parts]
+
+    size_t part_count() const { return is_replaced.size(); }
 };
 
-/// @param cell_m  > 0; points that near to each other hold a part together
-StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m);
+/// @param source_tree  of the source
+/// @param cell_m       > 0; points that near to each other hold a part together
+StandIns stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
+                   double cell_m);
 
 }  // namespace objects

@@ -148,7 +148,7 @@ objects::ClusterTree build_tree(const std::string& path) {
     objects::BuildOptions options;
     options.threads = 2;
     options.spent_share = 0.02;  // no two prisms are alike: what is nearly exact pays
-    options.levels_per_doubling = 4;
+    options.levels_per_doubling = 6;
     options.first_sizes = 3.36;
     options.error_share =
         0.0141;  // small clusters for their error: what is near does not decide for what is far

@@ -1,4 +1,4 @@
-#include "objects/clustering/alive_tree.h"
+#include "objects/alive_tree.h"
 
 #include <algorithm>
 #include <limits>

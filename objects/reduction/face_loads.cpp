@@ -1,0 +1,76 @@
+#include "objects/reduction/face_loads.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace objects {
+
+namespace {
+
+using lod::Triangle;
+
+constexpr int kMostHalvings = 12;
+
+double farthest_corner2(const Triangle& piece, const Triangle& face) {
+    return std::max({lod::squared_distance(piece.a, face), lod::squared_distance(piece.b, face),
+                     lod::squared_distance(piece.c, face)});
+}
+
+double area_m2(const Triangle& t) {
+    return 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+}
+
+/// The halves of a triangle on either side of its longest edge's middle.
+std::array<Triangle, 2> halves(const Triangle& t) {
+    const double ab = lod::squared_distance(t.a, t.b), bc = lod::squared_distance(t.b, t.c),
+                 ca = lod::squared_distance(t.c, t.a);
+    const Triangle turned = ab >= bc && ab >= ca ? t
+                            : bc >= ca           ? Triangle{t.b, t.c, t.a}
+                                                 : Triangle{t.c, t.a, t.b};
+    const glm::dvec3 middle = 0.5 * (turned.a + turned.b);
+    return {Triangle{turned.a, middle, turned.c}, Triangle{middle, turned.b, turned.c}};
+}
+
+bool share_out_piece(const Triangle& piece, double limit_m, int halvings, std::vector<FaceLoad>& loads) {
+    FaceLoad* nearest = nullptr;
+    double least2 = std::numeric_limits<double>::infinity();
+    for (FaceLoad& load : loads) {
+        const double farthest2 = farthest_corner2(piece, load.face);
+        if (farthest2 < least2) nearest = &load, least2 = farthest2;
+    }
+    if (least2 <= limit_m * limit_m) {
+        nearest->corners.insert(nearest->corners.end(), {piece.a, piece.b, piece.c});
+        nearest->area_m2 += area_m2(piece);
+        return true;
+    }
+    if (halvings == 0) return false;
+    const auto [one, other] = halves(piece);
+    return share_out_piece(one, limit_m, halvings - 1, loads) &&
+           share_out_piece(other, limit_m, halvings - 1, loads);
+}
+
+void keep_each_once(std::vector<glm::dvec3>& points) {
+    const auto key = [](const glm::dvec3& p) { return std::array{p.x, p.y, p.z}; };
+    std::sort(points.begin(), points.end(),
+              [&](const glm::dvec3& a, const glm::dvec3& b) { return key(a) < key(b); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
+}  // namespace
+
+std::vector<FaceLoad> share_out(const FaceSoup& surface, const FaceSoup& faces, double limit_m) {
+    std::vector<FaceLoad> loads(faces.faces.size());
+    for (size_t i = 0; i < loads.size(); ++i) {
+        loads[i].face = faces.view().triangle(i);
+        loads[i].colour = faces.colours[i];
+    }
+    for (size_t i = 0; i < surface.faces.size(); ++i) {
+        if (!share_out_piece(surface.view().triangle(i), limit_m, kMostHalvings, loads)) return {};
+    }
+    for (FaceLoad& load : loads)
+        keep_each_once(load.corners);
+    return loads;
+}
+
+}  // namespace objects
