@@ -83,6 +83,34 @@ class Asked {
     }
 };
 
+/// Faces that were gathered, and the stand-ins of parts of which none was: these are better by themselves, may be cards.
+/// @param least  [parts] their stand-ins, or what they are
+void put_together(const std::vector<Gathered>& gathered, const std::vector<uint32_t>& part_of_load,
+                  const std::vector<FaceSoup>& least, StandIns& out) {
+    std::vector<uint8_t> is_gathered(least.size(), 0);
+    for (const Gathered& group : gathered) {
+        for (const uint32_t load : group.loads) {
+            if (group.loads.size() > 1) is_gathered[part_of_load[load]] = 1;
+        }
+    }
+    out.faces_of_part.resize(least.size());
+    for (const Gathered& group : gathered) {
+        if (is_gathered[part_of_load[group.loads[0]]] == 0) continue;
+        const uint32_t corner = static_cast<uint32_t>(out.soup.points.size());
+        out.soup.points.insert(out.soup.points.end(), {group.face.a, group.face.b, group.face.c});
+        for (const uint32_t load : group.loads)
+            out.faces_of_part[part_of_load[load]].push_back(static_cast<uint32_t>(out.soup.faces.size()));
+        out.soup.faces.push_back({corner, corner + 1, corner + 2});
+        out.soup.colours.push_back(group.colour);
+    }
+    for (uint32_t part = 0; part < least.size(); ++part) {
+        if (is_gathered[part] != 0) continue;
+        for (size_t i = 0; i < least[part].faces.size(); ++i)
+            out.faces_of_part[part].push_back(static_cast<uint32_t>(out.soup.faces.size() + i));
+        append_soup(least[part], glm::dmat3(1.0), glm::dvec3(0.0), out.soup);
+    }
+}
+
 }  // namespace
 
 StandIn stand_in(const FaceSoup& part, double limit_m) {
@@ -147,32 +175,7 @@ StandIns stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree,
                     out.to_grow);
         least.push_back(is_found ? std::move(found.soup) : std::move(part));
     }
-    // Where nothing of a part is gathered, its own stand-in is better: it may be a card.
-    const std::vector<Gathered> gathered = gather(source, source_tree, limit_m, loads);
-    std::vector<uint8_t> is_gathered(least.size(), 0);
-    for (const Gathered& group : gathered) {
-        for (const uint32_t load : group.loads) {
-            if (group.loads.size() > 1) is_gathered[part_of_load[load]] = 1;
-        }
-    }
-    out.faces_of_part.resize(least.size());
-    for (const Gathered& group : gathered) {
-        if (is_gathered[part_of_load[group.loads[0]]] == 0) continue;
-        const uint32_t face = static_cast<uint32_t>(out.soup.faces.size());
-        const uint32_t corner = static_cast<uint32_t>(out.soup.points.size());
-        out.soup.points.insert(out.soup.points.end(), {group.face.a, group.face.b, group.face.c});
-        out.soup.faces.push_back({corner, corner + 1, corner + 2});
-        out.soup.colours.push_back(group.colour);
-        for (const uint32_t load : group.loads)
-            out.faces_of_part[part_of_load[load]].push_back(face);
-    }
-    for (uint32_t part = 0; part < least.size(); ++part) {
-        if (is_gathered[part] != 0) continue;
-        const uint32_t first = static_cast<uint32_t>(out.soup.faces.size());
-        append_soup(least[part], glm::dmat3(1.0), glm::dvec3(0.0), out.soup);
-        for (uint32_t face = first; face < out.soup.faces.size(); ++face)
-            out.faces_of_part[part].push_back(face);
-    }
+    put_together(gather(source, source_tree, limit_m, loads), part_of_load, least, out);
     return out;
 }
 
