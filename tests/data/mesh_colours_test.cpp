@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "tests/data/small_models.h"
 
@@ -12,6 +13,11 @@ namespace {
 using data::MeshNode;
 using data::PolygonMeshStats;
 using namespace test;
+
+// What a file beside it calls a file.
+std::string name_of(const std::string& name) {
+    return std::filesystem::path(file_path(name)).filename().string();
+}
 
 // An RGBA picture from its rows, top first.
 std::string write_png(const std::string& name, int width, int height, std::vector<uint8_t> rgba) {
@@ -46,10 +52,10 @@ TEST(MeshColours, TexturesBecomeVertexColours) {
         }
     }
     write_png("quarters.png", 64, 64, rgba);
-    write_file("quarters.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd polygon_mesh_quarters.png\n");
+    write_file("quarters.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd " + name_of("quarters.png") + "\n");
     PolygonMeshStats stats;
-    const auto mesh = data::read_polygon_mesh(
-        write_file("quarters.obj", textured_obj("polygon_mesh_quarters.mtl")), &stats);
+    const auto mesh =
+        data::read_polygon_mesh(write_file("quarters.obj", textured_obj(name_of("quarters.mtl"))), &stats);
     ASSERT_TRUE(mesh) << mesh.message();
     check_promises(*mesh);
     EXPECT_TRUE(stats.missing_files.empty());
@@ -83,9 +89,8 @@ TEST(MeshColours, TexturesAreAveragedInLinearLight) {
         rgba.insert(rgba.end(), {grey, grey, grey, 255});
     }
     write_png("chess.png", 64, 64, rgba);
-    write_file("chess.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd polygon_mesh_chess.png\n");
-    const auto mesh =
-        data::read_polygon_mesh(write_file("chess.obj", textured_obj("polygon_mesh_chess.mtl")));
+    write_file("chess.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd " + name_of("chess.png") + "\n");
+    const auto mesh = data::read_polygon_mesh(write_file("chess.obj", textured_obj(name_of("chess.mtl"))));
     ASSERT_TRUE(mesh) << mesh.message();
     for (const MeshNode& node : mesh->nodes) {
         for (const glm::u8vec4& colour : node.colours)
@@ -97,7 +102,7 @@ TEST(MeshColours, MissingTexturesLeaveTheMaterialsColour) {
     write_file("missing.mtl", "newmtl paint\nKd 0.2 0.4 0.6\nd 0.5\nmap_Kd nowhere.png\n");
     PolygonMeshStats stats;
     const auto mesh =
-        data::read_polygon_mesh(write_file("missing.obj", textured_obj("polygon_mesh_missing.mtl")), &stats);
+        data::read_polygon_mesh(write_file("missing.obj", textured_obj(name_of("missing.mtl"))), &stats);
     ASSERT_TRUE(mesh) << mesh.message();
     EXPECT_EQ(stats.missing_files, std::vector<std::string>{"nowhere.png"});
     for (const MeshNode& node : mesh->nodes) {
