@@ -116,6 +116,7 @@ class FlatFaces {
     /// Sides as one closed ring.
     static std::optional<std::vector<uint32_t>> ring_of(const std::vector<Side>& rim) {
         std::vector<uint32_t> ring;
+        if (rim.empty()) return std::nullopt;  // closed: so finely bent that it passed for flat
         const auto from = [&](uint32_t corner) {
             return std::lower_bound(rim.begin(), rim.end(), corner,
                                     [](const Side& side, uint32_t at) { return side.from < at; });
