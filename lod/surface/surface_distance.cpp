@@ -53,14 +53,6 @@ class PieceStack {
     size_t count_ = 0;
 };
 
-/// The same triangle with its longest edge from a to b.
-Triangle turn_longest_first(const Triangle& t) {
-    const double ab = squared_distance(t.a, t.b), bc = squared_distance(t.b, t.c),
-                 ca = squared_distance(t.c, t.a);
-    if (ab >= bc && ab >= ca) return t;
-    return bc >= ca ? Triangle{t.b, t.c, t.a} : Triangle{t.c, t.a, t.b};
-}
-
 /// Tightens the bounds by one triangle of the source.
 void bound_triangle(const Triangle& triangle, const TriangleTree& to, double slack_m, PieceStack& stack,
                     DistanceBounds& bounds) {

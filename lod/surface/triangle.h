@@ -40,11 +40,23 @@ inline glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& 
 /// Source: Ericson, Real-time collision detection (2005), 5.1.5. Differs from it in: collapsed triangles are segments.
 glm::dvec3 nearest_on_triangle(const glm::dvec3& point, const Triangle& triangle);
 
+inline double area_m2(const Triangle& t) {
+    return 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+}
+
 inline double squared_distance(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::dot(a - b, a - b);
 }
 inline double squared_distance(const glm::dvec3& point, const Triangle& triangle) {
     return squared_distance(point, nearest_on_triangle(point, triangle));
+}
+
+/// The same triangle with its longest edge from a to b: where it is halved.
+inline Triangle turn_longest_first(const Triangle& t) {
+    const double ab = squared_distance(t.a, t.b), bc = squared_distance(t.b, t.c),
+                 ca = squared_distance(t.c, t.a);
+    if (ab >= bc && ab >= ca) return t;
+    return bc >= ca ? Triangle{t.b, t.c, t.a} : Triangle{t.c, t.a, t.b};
 }
 
 }  // namespace lod

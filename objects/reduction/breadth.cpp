@@ -18,10 +18,6 @@ constexpr double kWeldShare = 1e-3;     ///< of the limit: points that near are 
 constexpr int kTurns = 12;              ///< of an axis towards the longest
 constexpr lod::PieceSearch kSearch{.most_pieces = 4096, .smallest_share = 1.0 / 32};
 
-double area_m2(const lod::Triangle& t) {
-    return 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
-}
-
 /// [faces] whether some edge of it is no other's: such a face covers by itself, others share with what is behind them.
 std::vector<uint8_t> has_border(const FaceSoup& soup, double limit_m) {
     const std::vector<uint32_t> point = weld(soup, kWeldShare * limit_m).point_of;
@@ -68,7 +64,7 @@ std::vector<Load> loads_of(const FaceSoup& source, const NearestFaces& nearest, 
     std::vector<Load> loads(count);
     for (size_t face = 0; face < source.faces.size(); ++face) {
         const lod::Triangle t = source.view().triangle(face);
-        const double quarter_m2 = 0.25 * (is_open[face] != 0 ? 1.0 : 0.5) * area_m2(t);
+        const double quarter_m2 = 0.25 * (is_open[face] != 0 ? 1.0 : 0.5) * lod::area_m2(t);
         const std::array<glm::dvec3, 4> points = quarters(t);
         for (size_t i = 0; i < points.size(); ++i) {
             if (nearest[face][i] != kNoFace) loads[nearest[face][i]].add(points[i], quarter_m2);
@@ -113,7 +109,7 @@ void keep_breadth(const FaceSoup& source, const lod::TriangleTree& source_tree, 
     std::vector<uint8_t> is_replaced(result.faces.size(), 0);
     FaceSoup cards;
     for (uint32_t face = 0; face < result.faces.size(); ++face) {
-        if (!(loads[face].area_m2 > kLeastLoad * area_m2(result.view().triangle(face)))) continue;
+        if (!(loads[face].area_m2 > kLeastLoad * lod::area_m2(result.view().triangle(face)))) continue;
         Rod rod = rod_of(loads[face]);
         if (!is_thin(rod, limit_m)) continue;
         rod.breadth_m = std::min(rod.breadth_m, limit_m);

@@ -17,21 +17,6 @@ double farthest_corner2(const Triangle& piece, const Triangle& face) {
                      lod::squared_distance(piece.c, face)});
 }
 
-double area_m2(const Triangle& t) {
-    return 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
-}
-
-/// The halves of a triangle on either side of its longest edge's middle.
-std::array<Triangle, 2> halves(const Triangle& t) {
-    const double ab = lod::squared_distance(t.a, t.b), bc = lod::squared_distance(t.b, t.c),
-                 ca = lod::squared_distance(t.c, t.a);
-    const Triangle turned = ab >= bc && ab >= ca ? t
-                            : bc >= ca           ? Triangle{t.b, t.c, t.a}
-                                                 : Triangle{t.c, t.a, t.b};
-    const glm::dvec3 middle = 0.5 * (turned.a + turned.b);
-    return {Triangle{turned.a, middle, turned.c}, Triangle{middle, turned.b, turned.c}};
-}
-
 bool share_out_piece(const Triangle& piece, double limit_m, int halvings, std::vector<FaceLoad>& loads) {
     FaceLoad* nearest = nullptr;
     double least2 = std::numeric_limits<double>::infinity();
@@ -41,13 +26,14 @@ bool share_out_piece(const Triangle& piece, double limit_m, int halvings, std::v
     }
     if (least2 <= limit_m * limit_m) {
         nearest->corners.insert(nearest->corners.end(), {piece.a, piece.b, piece.c});
-        nearest->area_m2 += area_m2(piece);
+        nearest->area_m2 += lod::area_m2(piece);
         return true;
     }
     if (halvings == 0) return false;
-    const auto [one, other] = halves(piece);
-    return share_out_piece(one, limit_m, halvings - 1, loads) &&
-           share_out_piece(other, limit_m, halvings - 1, loads);
+    const Triangle turned = lod::turn_longest_first(piece);
+    const glm::dvec3 middle = 0.5 * (turned.a + turned.b);
+    return share_out_piece({turned.a, middle, turned.c}, limit_m, halvings - 1, loads) &&
+           share_out_piece({middle, turned.b, turned.c}, limit_m, halvings - 1, loads);
 }
 
 void keep_each_once(std::vector<glm::dvec3>& points) {

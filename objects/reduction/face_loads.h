@@ -7,7 +7,7 @@
 
 namespace objects {
 
-/// What a face stands for. The distance to a face is convex, so what is near at its corners is near.
+/// What a face stands for, in the frame of the soups it came from, metres. The distance to a face is convex, so what is near at its corners is near.
 struct FaceLoad {
     lod::Triangle face;
     glm::u8vec4 colour{0};
@@ -17,6 +17,7 @@ struct FaceLoad {
 
 /// @param surface  pieces are its faces, halved where no single one of `faces` is near to all of one
 /// @param faces    a few, with colours
+/// @param limit_m  > 0
 /// @returns        a load for each of `faces`, some perhaps without corners; none when a piece is not near after some
 ///                 halvings
 /// Cost: O(surface * faces).

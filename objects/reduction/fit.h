@@ -17,14 +17,15 @@
 
 namespace objects {
 
+/// All in one frame, metres.
 struct FitTarget {
     std::span<const glm::dvec3> points;  ///< of the surface, that should come within the limit of a triangle
     lod::Soup surface;                   ///< what triangles should stay near …
-    const lod::TriangleTree* tree;       ///< … in a tree
+    const lod::TriangleTree* tree;       ///< … in a tree, not null; empty: nothing fits
 };
 
-/// @param triangles  in and out: at least one
 /// @param limit_m    > 0
+/// @param triangles  in and out, at least one; collapsed ones are welcome. Anything when it returns false
 /// @returns          whether all samples are within the limit at last
 /// Cost: some 10 to 100 us a triangle. Deterministic.
 bool fit(const FitTarget& target, double limit_m, std::span<lod::Triangle> triangles);

@@ -22,7 +22,9 @@ struct Gathered {
     std::vector<uint32_t> loads;  ///< what it stands for, at least one
 };
 
-/// @param source_tree  of everything there is: faces may be near to any of it
+/// @param source       everything there is, in metres; loads are in its frame
+/// @param source_tree  of it: faces may be near to any of it
+/// @param limit_m      > 0
 /// @param loads        with corners; each face is proved to be within `limit_m` of the source, and its load of it
 /// @returns            faces of which the same is true, no more of them; every load is one's
 /// Cost: about 1 ms a load where neighbours are half as far apart as the limit is, less elsewhere. Deterministic.

@@ -18,8 +18,9 @@ struct PartShape {
     bool is_for_gathering = false;  ///< not broad enough where it stands alone
 };
 
-/// Appends shapes along one axis that may do, of each kind with the fewest faces first.
-/// @param faces  of the part; none has as many
+/// Appends shapes along one axis that may do, of each kind with the fewest faces first; in the part's frame, metres.
+/// @param faces    of the part: closed prisms have fewer
+/// @param limit_m  > 0: as far as they may be off
 void propose_shapes(const SeenPart& seen, size_t faces, double limit_m, std::vector<PartShape>& out);
 
 }  // namespace objects

@@ -9,6 +9,7 @@
 
 namespace objects {
 
+/// Metres along three axes of the part's own, the third what it is seen along.
 struct SeenPart {
     glm::dmat3 part_from_axes{1.0};    ///< third column: the axis
     double low_m = 0.0, high_m = 0.0;  ///< along the axis
