@@ -1,5 +1,6 @@
 #include "lod/draw_list.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -60,6 +61,13 @@ Vertex make_vertex(const glm::dvec3& position, const glm::vec3& normal, const gl
     vertex.colour[1] = colour.y;
     vertex.colour[2] = colour.z;
     vertex.colour[3] = static_cast<uint8_t>(material);
+    return vertex;
+}
+
+Vertex make_all_round_vertex(const glm::dvec3& position, double up_share, const glm::u8vec3& colour) {
+    Vertex vertex = make_vertex(position, {0.0f, 0.0f, 1.0f}, colour, Material::kAllRound);
+    vertex.surface[0] = static_cast<uint16_t>(std::lround(65535.0 * std::clamp(up_share, 0.0, 1.0)));
+    vertex.surface[1] = 0;
     return vertex;
 }
 

@@ -40,6 +40,10 @@ inline glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& 
 /// Source: Ericson, Real-time collision detection (2005), 5.1.5. Differs from it in: collapsed triangles are segments.
 glm::dvec3 nearest_on_triangle(const glm::dvec3& point, const Triangle& triangle);
 
+/// Along the normal that its corners turn about.
+inline glm::dvec3 area_vector_m2(const Triangle& t) {
+    return 0.5 * glm::cross(t.b - t.a, t.c - t.a);
+}
 inline double area_m2(const Triangle& t) {
     return 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
 }

@@ -11,6 +11,7 @@
 #include "objects/clustering/for_each_item.h"
 #include "objects/clustering/stays.h"
 #include "objects/reduction/fat_faces.h"
+#include "objects/reduction/finish.h"
 #include "objects/reduction/reduce.h"
 
 namespace objects {
@@ -30,7 +31,9 @@ FaceSoup soup_of(const data::TimedMesh& mesh) {
         glm::uvec4 sum(0u);
         for (uint32_t corner : triangle)
             sum += glm::uvec4(mesh.colours[corner]);
-        soup.colours.push_back(glm::u8vec4((sum + 1u) / 3u));
+        glm::u8vec4 colour((sum + 1u) / 3u);
+        colour.w = colour.w < 255 ? kGlass : kByNormal;
+        soup.colours.push_back(colour);
     }
     return with_fat_faces(soup);
 }

@@ -7,6 +7,7 @@
 
 #include "lod/base/check.h"
 #include "lod/base/hash.h"
+#include "objects/reduction/finish.h"
 
 namespace objects {
 
@@ -137,8 +138,9 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
         for (uint32_t corner : corners) {
             const glm::u8vec4 colour = soup.colours[corner / 3];
             const lod::Vertex vertex =
-                lod::make_vertex(soup.points[point], bent_normal(cross, corners, corner / 3),
-                                 glm::u8vec3(colour.x, colour.y, colour.z), material_of(colour.w));
+                is_all_round(colour)
+                    ? lod::make_all_round_vertex(soup.points[point], up_share(colour), glm::u8vec3(colour))
+                    : lod::make_vertex(soup.points[point], bent_normal(cross, corners, corner / 3), glm::u8vec3(colour), material_of(colour.w));
             size_t same = first;
             while (same < drawn.vertices.size() &&
                    std::memcmp(&drawn.vertices[same], &vertex, sizeof vertex) != 0)
@@ -149,7 +151,7 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
     }
     for (const bool glass : {false, true}) {
         for (size_t face = 0; face < soup.faces.size(); ++face) {
-            if ((soup.colours[face].w < 255) != glass) continue;
+            if (is_glass(soup.colours[face]) != glass) continue;
             for (size_t k = 0; k < 3; ++k)
                 drawn.indices.push_back(vertex_of[3 * face + k]);
             if (glass) drawn.glass_index_count += 3;

@@ -17,7 +17,8 @@ double farthest_corner2(const Triangle& piece, const Triangle& face) {
                      lod::squared_distance(piece.c, face)});
 }
 
-bool share_out_piece(const Triangle& piece, double limit_m, int halvings, std::vector<FaceLoad>& loads) {
+bool share_out_piece(const Triangle& piece, const glm::u8vec4& colour, double limit_m, int halvings,
+                     std::vector<FaceLoad>& loads) {
     FaceLoad* nearest = nullptr;
     double least2 = std::numeric_limits<double>::infinity();
     for (FaceLoad& load : loads) {
@@ -27,13 +28,14 @@ bool share_out_piece(const Triangle& piece, double limit_m, int halvings, std::v
     if (least2 <= limit_m * limit_m) {
         nearest->corners.insert(nearest->corners.end(), {piece.a, piece.b, piece.c});
         nearest->area_m2 += lod::area_m2(piece);
+        nearest->outlook.add(lod::area_vector_m2(piece), colour);
         return true;
     }
     if (halvings == 0) return false;
     const Triangle turned = lod::turn_longest_first(piece);
     const glm::dvec3 middle = 0.5 * (turned.a + turned.b);
-    return share_out_piece({turned.a, middle, turned.c}, limit_m, halvings - 1, loads) &&
-           share_out_piece({middle, turned.b, turned.c}, limit_m, halvings - 1, loads);
+    return share_out_piece({turned.a, middle, turned.c}, colour, limit_m, halvings - 1, loads) &&
+           share_out_piece({middle, turned.b, turned.c}, colour, limit_m, halvings - 1, loads);
 }
 
 void keep_each_once(std::vector<glm::dvec3>& points) {
@@ -52,7 +54,7 @@ std::vector<FaceLoad> share_out(const FaceSoup& surface, const FaceSoup& faces, 
         loads[i].colour = faces.colours[i];
     }
     for (size_t i = 0; i < surface.faces.size(); ++i) {
-        if (!share_out_piece(surface.view().triangle(i), limit_m, kMostHalvings, loads)) return {};
+        if (!share_out_piece(surface.view().triangle(i), surface.colours[i], limit_m, kMostHalvings, loads)) return {};
     }
     for (FaceLoad& load : loads)
         keep_each_once(load.corners);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "objects/reduction/face_soup.h"
+#include "objects/reduction/finish.h"
 
 namespace objects {
 
@@ -13,6 +14,7 @@ struct FaceLoad {
     glm::u8vec4 colour{0};
     std::vector<glm::dvec3> corners;  ///< of the pieces, each once
     double area_m2 = 0.0;             ///< of the pieces
+    Outlook outlook;                  ///< … and where they look
 };
 
 /// @param surface  pieces are its faces, halved where no single one of `faces` is near to all of one

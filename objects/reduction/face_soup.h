@@ -13,7 +13,7 @@ namespace objects {
 struct FaceSoup {
     std::vector<glm::dvec3> points;              ///< metres, finite
     std::vector<std::array<uint32_t, 3>> faces;  ///< into points; collapsed and repeated ones are allowed
-    std::vector<glm::u8vec4> colours;            ///< [faces] sRGB; alpha below 255 is glass
+    std::vector<glm::u8vec4> colours;            ///< [faces] sRGB and the finish (finish.h)
 
     lod::Soup view() const { return {points, faces}; }
 };

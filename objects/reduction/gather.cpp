@@ -13,6 +13,7 @@
 #include "objects/alive_tree.h"
 #include "objects/reduction/fit.h"
 #include "objects/reduction/seen_part.h"
+#include "objects/reduction/spread.h"
 
 namespace objects {
 
@@ -175,10 +176,12 @@ class Gathering {
         }
     }
 
-    std::vector<Gathered> result() const {
+    std::vector<Gathered> result() {
         std::vector<Gathered> all;
-        for (const Group& group : groups_) {
-            if (group.went_to == kNone) all.push_back({group.face, mean_colour(group), group.loads});
+        for (Group& group : groups_) {
+            if (group.went_to != kNone) continue;
+            spread_out(group);
+            all.push_back(finished(group));
         }
         return all;
     }
@@ -235,7 +238,7 @@ class Gathering {
     }
 
     bool may_join(const Group& a, const Group& b) const {
-        return loads_[a.loads[0]].colour.w == loads_[b.loads[0]].colour.w &&
+        return is_glass(loads_[a.loads[0]].colour) == is_glass(loads_[b.loads[0]].colour) &&
                gap2(a, b) <= 4.0 * limit_m_ * limit_m_;
     }
 
@@ -268,6 +271,18 @@ class Gathering {
             }
         }
         return std::nullopt;
+    }
+
+    void spread_out(Group& group) const {
+        Outlook outlook;
+        for (const uint32_t load : group.loads)
+            outlook.add(loads_[load].outlook);
+        const FitTarget target{group.extremes, source_.view(), &tree_};
+        const auto holds = [&](const Triangle& face) {
+            lod::PieceSearch search = kSearch;
+            return holds_all(group, face) && lod::is_within(face, tree_, limit_m_, search);
+        };
+        spread(target, limit_m_, outlook.covering_m2(), holds, group.face);
     }
 
     bool holds_all(const Group& group, const Triangle& face) const {
@@ -340,17 +355,22 @@ class Gathering {
         give_up(group, grown.begin()->first);
     }
 
-    glm::u8vec4 mean_colour(const Group& group) const {
-        const glm::u8vec4 first = loads_[group.loads[0]].colour;
+    Gathered finished(const Group& group) const {
+        Gathered out{group.face, loads_[group.loads[0]].colour, group.loads};
         glm::dvec3 light(0.0);
         double area_m2 = 0.0;
+        Outlook outlook;
         for (const uint32_t load : group.loads) {
             const glm::dvec3 colour(loads_[load].colour);
             light += loads_[load].area_m2 * colour * colour;
             area_m2 += loads_[load].area_m2;
+            outlook.add(loads_[load].outlook);
         }
-        if (!(area_m2 > 0.0)) return first;
-        return {glm::u8vec3(glm::round(glm::sqrt(light / area_m2))), first.w};
+        if (area_m2 > 0.0) out.colour = glm::u8vec4(glm::u8vec3(glm::round(glm::sqrt(light / area_m2))), out.colour.w);
+        const glm::dvec3 normal = lod::area_vector_m2(out.face);
+        if (!is_glass(out.colour)) out.colour.w = outlook.finish(normal);
+        if (glm::dot(normal, outlook.sum_m2) < 0.0) std::swap(out.face.b, out.face.c);
+        return out;
     }
 
     const FaceSoup& source_;

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "objects/reduction/finish.h"
+
 namespace objects {
 
 namespace {
@@ -104,7 +106,7 @@ void join_halves(const FaceSoup& soup, std::vector<Mixtures>& mixtures) {
             if (length_m > longest_m) longest_m = length_m, longest = std::minmax(a, b);
         }
         const auto [half, is_first] = by_diagonal.emplace(longest, face);
-        if (is_first || soup.colours[face].w < 255 || soup.colours[half->second].w < 255) continue;
+        if (is_first || is_glass(soup.colours[face]) || is_glass(soup.colours[half->second])) continue;
         const glm::dvec3 one = area_vector(soup.view().triangle(face)),
                          other = area_vector(soup.view().triangle(half->second));
         if (!(glm::dot(one, other) > kFlatCosine * glm::length(one) * glm::length(other))) continue;
@@ -142,14 +144,14 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
     std::vector<Sample> samples;
     const auto add = [&](uint32_t face, const glm::dvec3& area, const glm::dvec3& light,
                          auto Mixtures::*towards, auto Mixtures::*away) {
-        if (face == kNoFace || result.colours[face].w < 255) return;
+        if (face == kNoFace || is_glass(result.colours[face])) return;
         const glm::dvec3 front = area_vector(result.view().triangle(face));
         const double cosine = glm::dot(area, front) / (glm::length(area) * glm::length(front));
         if (!(std::abs(cosine) >= kLeastCosine)) return;
         (mixtures[face].*(cosine > 0.0 ? towards : away)).add(light, glm::length(area) * std::abs(cosine));
     };
     for (size_t face = 0; face < source.faces.size(); ++face) {
-        if (source.colours[face].w < 255) continue;
+        if (is_glass(source.colours[face])) continue;
         const lod::Triangle triangle = source.view().triangle(face);
         const glm::dvec3 whole = area_vector(triangle), light = light_of(source.colours[face]);
         const double size = glm::length(whole);
@@ -178,7 +180,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
         if (!(mixture.weight > 0.0)) continue;
         const glm::dvec3 mean = glm::sqrt(mixture.light / mixture.weight);
         const glm::u8vec3 mixed(glm::clamp(glm::round(mean), 0.0, 255.0));
-        result.colours[face] = {mixed.x, mixed.y, mixed.z, 255};
+        result.colours[face] = {mixed.x, mixed.y, mixed.z, result.colours[face].w};
     }
 }
 

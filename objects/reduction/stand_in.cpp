@@ -9,11 +9,13 @@
 #include "objects/reduction/gather.h"
 #include "objects/reduction/part_shapes.h"
 #include "objects/reduction/parts.h"
+#include "objects/reduction/spread.h"
 
 namespace objects {
 
 namespace {
 
+constexpr size_t kMostLoose = 5;      ///< faces of shapes that are less than a solid
 constexpr size_t kMostFaces = 4096;   ///< of a part; what has more is hardly a prism
 constexpr double kUprightCos = 0.9;   ///< what is longest that way is seen from above only
 constexpr double kSampleShare = 0.8;  ///< of the limit, between samples one above the other
@@ -47,13 +49,15 @@ bool are_all_within(const FaceSoup& from, const lod::TriangleTree& to, double li
 
 bool is_of_one_kind(const FaceSoup& part) {
     return std::all_of(part.colours.begin(), part.colours.end(),
-                       [&](const glm::u8vec4& colour) { return colour.w == part.colours[0].w; });
+                       [&](const glm::u8vec4& colour) { return is_glass(colour) == is_glass(part.colours[0]); });
 }
 
 /// A part that is asked what may stand for it.
 class Asked {
   public:
     Asked(const FaceSoup& part, double limit_m) : part_(part), tree_(part.view()), limit_m_(limit_m) {}
+
+    const lod::TriangleTree& tree() const { return tree_; }
 
     /// A shape that is near enough, moved where its faces are loose and it has to be.
     std::optional<FaceSoup> settled(const PartShape& shape, const SeenPart& seen) const {
@@ -82,6 +86,36 @@ class Asked {
                are_all_within(part_, lod::TriangleTree(soup.view()), limit_m_);
     }
 };
+
+void spread_load(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, FaceLoad& load) {
+    const auto holds = [&](const lod::Triangle& face) {
+        lod::PieceSearch search = kSearch;
+        return std::all_of(load.corners.begin(), load.corners.end(), [&](const glm::dvec3& corner) {
+            return lod::squared_distance(corner, face) <= limit_m * limit_m;
+        }) && lod::is_within(face, tree, limit_m, search);
+    };
+    spread({load.corners, part.view(), &tree}, limit_m, load.outlook.covering_m2(), holds, load.face);
+}
+
+/// How the faces of a shape are lit that stands for an opaque part.
+void settle_finish(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, bool is_loose,
+                   FaceSoup& shape) {
+    if (is_glass(part.colours[0])) return;
+    for (glm::u8vec4& colour : shape.colours)
+        colour.w = kByNormal;
+    if (shape.faces.size() > kMostLoose) return;
+    std::vector<FaceLoad> loads = share_out(part, shape, limit_m);
+    if (loads.empty()) return;
+    if (is_loose) shape.points.clear();
+    for (size_t face = 0; face < loads.size(); ++face) {
+        FaceLoad& load = loads[face];
+        if (is_loose) {
+            if (!load.corners.empty()) spread_load(part, tree, limit_m, load);
+            shape.points.insert(shape.points.end(), {load.face.a, load.face.b, load.face.c});
+        }
+        shape.colours[face].w = load.outlook.finish(lod::area_vector_m2(load.face));
+    }
+}
 
 /// Faces that were gathered, and the stand-ins of parts of which none was: these are better by themselves, may be cards.
 /// @param least  [parts] their stand-ins, or what they are
@@ -140,6 +174,7 @@ StandIn stand_in(const FaceSoup& part, double limit_m) {
         if (!near) continue;
         near->colours.assign(near->faces.size(), part.colours[0]);
         if (shape.is_for_gathering || shape.is_loose) found.to_gather = *near;
+        settle_finish(part, asked.tree(), limit_m, shape.is_loose, *near);
         if (shape.is_for_gathering) continue;
         found.soup = std::move(*near);
         found.is_card = shape.is_card;

@@ -61,6 +61,20 @@ vec3 lit(vec3 albedo, vec3 normal, vec3 towards_eye, float sheen) {
     return sqrt(albedo * albedo * light + kSunLight * (sheen * half_16 * lambert));
 }
 
+// Light on what is upright and looks all round, seen from an eye: the mean of what is seen of a round tower, the lit side from
+// the sun's, below a share of roof. The mean over the half circle that is seen, (sin a + (pi - a) cos a) / 4 for an azimuth
+// a between eye and sun, is a parabola in the cosine within 0.005.
+vec3 lit_all_round(vec3 albedo, float up_share, vec3 towards_eye) {
+    float eye_up = dot(towards_eye, up_eye.xyz), sun_up = dot(sun_eye.xyz, up_eye.xyz);
+    float eye_level = sqrt(max(1.0 - eye_up * eye_up, 1e-6)), sun_level = sqrt(max(1.0 - sun_up * sun_up, 1e-6));
+    float c = clamp((dot(towards_eye, sun_eye.xyz) - eye_up * sun_up) / (eye_level * sun_level), -1.0, 1.0);
+    float walls = (1.0 - up_share) * eye_level * 0.3183099, roofs = up_share * max(eye_up, 0.0);
+    float roof_share = roofs / max(walls + roofs, 1e-6);
+    vec3 on_walls = kSunLight * (sun_level * (0.25 + c * (0.3925 + 0.1425 * c))) + mix(kGroundLight, kSkyLight, 0.5);
+    vec3 on_roofs = kSunLight * max(sun_up, 0.0) + kSkyLight;
+    return albedo * sqrt(mix(on_walls, on_roofs, roof_share));
+}
+
 // A pane: hardly there when seen square on, a mirror of the sky when grazed.
 vec4 glass(vec3 tint, vec3 normal, vec3 towards_eye) {
     float facing = abs(dot(normal, towards_eye));
@@ -76,6 +90,8 @@ vec4 surface_colour(uint material, vec3 normal, vec3 position_eye) {
     vec3 towards_eye = -normalize(position_eye);
     if (material == kGround) return vec4(1.0);
     if (material == kGlow) return vec4(colour, 1.0);
+    if (material == kAllRound)
+        return vec4(lit_all_round(colour, float(surface.x) / 65535.0, towards_eye), 1.0);
     if (material == kGlass) return glass(colour, normal, towards_eye);
     float dimming = material == kWallFoot ? 0.88 : material == kWall ? 0.97 : 1.0;
     return vec4(lit(colour * dimming, normal, towards_eye, material == kPaint ? 0.22 : 0.0), 1.0);
