@@ -26,15 +26,16 @@ enum class Material : uint8_t {
     kGlass = 5,     ///< a faint reflection over what is behind; drawn last
     kSky = 6,       ///< position_hi.xy in clip space, at infinity
     kWallFoot = 7,  ///< foot of a wall: lowered by the ground's error of this frame so that no gap opens
-    kAllRound = 8,  ///< stands for many surfaces, upright all round and some that look up: their mean light from the eye
+    kAllRound =
+        8,  ///< stands for many surfaces, upright all round and some that look up: their mean light from the eye
 };
 
 /// 32 bytes. `position_hi + position_lo` is the position in the instance's model frame, metres.
 struct Vertex {
     float position_hi[3];
     float position_lo[3];
-    uint16_t
-        surface[2];  ///< kGround: sample (set_ground_sample); kAllRound: share that looks up, unorm16; else the normal, octahedral, snorm16 (bit-cast)
+    uint16_t surface
+        [2];  ///< kGround: sample (set_ground_sample); kAllRound: share that looks up, unorm16; else the normal, octahedral, snorm16 (bit-cast)
     uint8_t colour[4];  ///< sRGB red, green, blue; Material
 };
 static_assert(sizeof(Vertex) == 32 && offsetof(Vertex, position_lo) == 12 &&

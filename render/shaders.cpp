@@ -33,9 +33,10 @@ std::string preamble(const ShaderFeatures& features) {
            constant("kWall", lod::Material::kWall) + constant("kRoof", lod::Material::kRoof) +
            constant("kPaint", lod::Material::kPaint) + constant("kGlow", lod::Material::kGlow) +
            constant("kGlass", lod::Material::kGlass) + constant("kSky", lod::Material::kSky) +
-           constant("kWallFoot", lod::Material::kWallFoot) + constant("kAllRound", lod::Material::kAllRound) + constant("kPlain", Pattern::kPlain) +
-           constant("kGrain", Pattern::kGround) + constant("kRoofing", Pattern::kRoof) +
-           constant("kFirstFacade", Pattern::kHouse) + constant("kRoofTilesPerMetre", 1.0 / kRoofTile_m) +
+           constant("kWallFoot", lod::Material::kWallFoot) + constant("kAllRound", lod::Material::kAllRound) +
+           constant("kPlain", Pattern::kPlain) + constant("kGrain", Pattern::kGround) +
+           constant("kRoofing", Pattern::kRoof) + constant("kFirstFacade", Pattern::kHouse) +
+           constant("kRoofTilesPerMetre", 1.0 / kRoofTile_m) +
            constant("kFacadeTilesPerMetre", 1.0 / kFacadeTile_m) + constant("kPerNeutral", 255.0 / kNeutral);
 }
 

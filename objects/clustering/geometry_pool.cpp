@@ -140,7 +140,8 @@ DrawnGeometry draw_soup(const FaceSoup& soup) {
             const lod::Vertex vertex =
                 is_all_round(colour)
                     ? lod::make_all_round_vertex(soup.points[point], up_share(colour), glm::u8vec3(colour))
-                    : lod::make_vertex(soup.points[point], bent_normal(cross, corners, corner / 3), glm::u8vec3(colour), material_of(colour.w));
+                    : lod::make_vertex(soup.points[point], bent_normal(cross, corners, corner / 3),
+                                       glm::u8vec3(colour), material_of(colour.w));
             size_t same = first;
             while (same < drawn.vertices.size() &&
                    std::memcmp(&drawn.vertices[same], &vertex, sizeof vertex) != 0)

@@ -27,7 +27,6 @@ bool share_out_piece(const Triangle& piece, const glm::u8vec4& colour, double li
     }
     if (least2 <= limit_m * limit_m) {
         nearest->corners.insert(nearest->corners.end(), {piece.a, piece.b, piece.c});
-        nearest->area_m2 += lod::area_m2(piece);
         nearest->outlook.add(lod::area_vector_m2(piece), colour);
         return true;
     }
@@ -54,7 +53,8 @@ std::vector<FaceLoad> share_out(const FaceSoup& surface, const FaceSoup& faces, 
         loads[i].colour = faces.colours[i];
     }
     for (size_t i = 0; i < surface.faces.size(); ++i) {
-        if (!share_out_piece(surface.view().triangle(i), surface.colours[i], limit_m, kMostHalvings, loads)) return {};
+        if (!share_out_piece(surface.view().triangle(i), surface.colours[i], limit_m, kMostHalvings, loads))
+            return {};
     }
     for (FaceLoad& load : loads)
         keep_each_once(load.corners);

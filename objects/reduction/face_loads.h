@@ -13,8 +13,7 @@ struct FaceLoad {
     lod::Triangle face;
     glm::u8vec4 colour{0};
     std::vector<glm::dvec3> corners;  ///< of the pieces, each once
-    double area_m2 = 0.0;             ///< of the pieces
-    Outlook outlook;                  ///< … and where they look
+    Outlook outlook;                  ///< of the pieces
 };
 
 /// @param surface  pieces are its faces, halved where no single one of `faces` is near to all of one

@@ -74,7 +74,7 @@ struct Outlook {
     /// Of an opaque face that stands for these surfaces.
     /// @param normal  of the face, any length
     uint8_t finish(const glm::dvec3& normal) const {
-        constexpr double kOneWay = 0.9;  // half of a round tower's wall: 0.64, a third: 0.83
+        constexpr double kOneWay = 0.9;   // half of a round tower's wall: 0.64, a third: 0.83
         constexpr double kOneAxis = 0.7;  // all of it: 0.5
         const double length2 = glm::dot(normal, normal);
         if (!(length2 > 0.0 && up_m2 + round_m2 > 0.0) || glm::length(sum_m2) >= kOneWay * area_m2 ||

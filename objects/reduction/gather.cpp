@@ -11,6 +11,7 @@
 
 #include "lod/surface/surface_distance.h"
 #include "objects/alive_tree.h"
+#include "objects/reduction/extremes.h"
 #include "objects/reduction/fit.h"
 #include "objects/reduction/seen_part.h"
 #include "objects/reduction/spread.h"
@@ -29,54 +30,24 @@ constexpr uint64_t kFirstTries = 256, kTriesForOne = 24;  ///< fewer finds than 
 constexpr uint32_t kNone = 0xffffffffu;
 constexpr lod::PieceSearch kSearch{.most_pieces = 1024, .smallest_share = 1.0 / 32};
 
-/// Directions in which the farthest points are kept: enough to move a face by.
-constexpr size_t kWays = 13;
-constexpr std::array<std::array<double, 3>, kWays> kWay = {{{1, 0, 0},
-                                                            {0, 1, 0},
-                                                            {0, 0, 1},
-                                                            {1, 1, 0},
-                                                            {1, -1, 0},
-                                                            {1, 0, 1},
-                                                            {1, 0, -1},
-                                                            {0, 1, 1},
-                                                            {0, 1, -1},
-                                                            {1, 1, 1},
-                                                            {1, 1, -1},
-                                                            {1, -1, 1},
-                                                            {-1, 1, 1}}};
-
-double along(size_t way, const glm::dvec3& point) {
-    return kWay[way][0] * point.x + kWay[way][1] * point.y + kWay[way][2] * point.z;
-}
-
-/// The farthest points of something both ways along each direction.
-using Extremes = std::array<glm::dvec3, 2 * kWays>;
-
-void extend(const glm::dvec3& point, Extremes& extremes) {
-    for (size_t way = 0; way < kWays; ++way) {
-        if (along(way, point) > along(way, extremes[2 * way])) extremes[2 * way] = point;
-        if (along(way, point) < along(way, extremes[2 * way + 1])) extremes[2 * way + 1] = point;
-    }
-}
-
 struct Group {
     Triangle face;
     Extremes extremes;
     std::vector<uint32_t> loads, neighbours;
     uint32_t version = 0;      ///< rises with every change
     uint32_t went_to = kNone;  ///< the group that took it in
-
-    glm::dvec3 high() const { return {extremes[0].x, extremes[2].y, extremes[4].z}; }
-    glm::dvec3 low() const { return {extremes[1].x, extremes[3].y, extremes[5].z}; }
 };
 
 double gap2(const Group& a, const Group& b) {
-    const glm::dvec3 apart = glm::max(glm::max(a.low() - b.high(), b.low() - a.high()), glm::dvec3(0.0));
+    const glm::dvec3 apart =
+        glm::max(glm::max(a.extremes.low() - b.extremes.high(), b.extremes.low() - a.extremes.high()),
+                 glm::dvec3(0.0));
     return glm::dot(apart, apart);
 }
 
 double joint_extent2(const Group& a, const Group& b) {
-    const glm::dvec3 extent = glm::max(a.high(), b.high()) - glm::min(a.low(), b.low());
+    const glm::dvec3 extent =
+        glm::max(a.extremes.high(), b.extremes.high()) - glm::min(a.extremes.low(), b.extremes.low());
     return glm::dot(extent, extent);
 }
 
@@ -191,9 +162,9 @@ class Gathering {
         Group group;
         group.face = loads_[load].face;
         group.loads = {load};
-        group.extremes.fill(loads_[load].corners[0]);
+        group.extremes = Extremes(loads_[load].corners[0]);
         for (const glm::dvec3& corner : loads_[load].corners)
-            extend(corner, group.extremes);
+            group.extremes.add(corner);
         return group;
     }
 
@@ -207,7 +178,7 @@ class Gathering {
         if (groups_.empty()) return;
         std::vector<PlaceAndTime> places;
         for (const Group& group : groups_) {
-            const glm::dvec3 middle = 0.5 * (group.low() + group.high());
+            const glm::dvec3 middle = 0.5 * (group.extremes.low() + group.extremes.high());
             places.push_back({middle.x, middle.y, middle.z, 0.0, 0.0});
         }
         const AliveTree tree(places);
@@ -253,9 +224,9 @@ class Gathering {
 
     /// A face that is proved to be near enough to all that two stand for, and to the source.
     std::optional<Triangle> face_for(const Group& one, const Group& other) {
-        std::array<glm::dvec3, 4 * kWays> points;
-        std::copy(one.extremes.begin(), one.extremes.end(), points.begin());
-        std::copy(other.extremes.begin(), other.extremes.end(), points.begin() + 2 * kWays);
+        std::array<glm::dvec3, 2 * Extremes::kCount> points;
+        std::ranges::copy(one.extremes.points(), points.begin());
+        std::ranges::copy(other.extremes.points(), points.begin() + Extremes::kCount);
         if (is_rod(points)) return std::nullopt;
         ++tried_;
         const FitTarget target{points, source_.view(), &tree_};
@@ -275,14 +246,13 @@ class Gathering {
 
     void spread_out(Group& group) const {
         Outlook outlook;
-        for (const uint32_t load : group.loads)
+        std::vector<glm::dvec3> corners;
+        for (const uint32_t load : group.loads) {
             outlook.add(loads_[load].outlook);
-        const FitTarget target{group.extremes, source_.view(), &tree_};
-        const auto holds = [&](const Triangle& face) {
-            lod::PieceSearch search = kSearch;
-            return holds_all(group, face) && lod::is_within(face, tree_, limit_m_, search);
-        };
-        spread(target, limit_m_, outlook.covering_m2(), holds, group.face);
+            corners.insert(corners.end(), loads_[load].corners.begin(), loads_[load].corners.end());
+        }
+        const FitTarget target{group.extremes.points(), source_.view(), &tree_};
+        spread(target, corners, limit_m_, outlook.covering_m2(), group.face);
     }
 
     bool holds_all(const Group& group, const Triangle& face) const {
@@ -296,8 +266,8 @@ class Gathering {
 
     static void take_in(const Group& other, const Triangle& face, Group& group) {
         group.face = face;
-        for (const glm::dvec3& point : other.extremes)
-            extend(point, group.extremes);
+        for (const glm::dvec3& point : other.extremes.points())
+            group.extremes.add(point);
         group.loads.insert(group.loads.end(), other.loads.begin(), other.loads.end());
         ++group.version;
     }
@@ -358,15 +328,14 @@ class Gathering {
     Gathered finished(const Group& group) const {
         Gathered out{group.face, loads_[group.loads[0]].colour, group.loads};
         glm::dvec3 light(0.0);
-        double area_m2 = 0.0;
         Outlook outlook;
         for (const uint32_t load : group.loads) {
             const glm::dvec3 colour(loads_[load].colour);
-            light += loads_[load].area_m2 * colour * colour;
-            area_m2 += loads_[load].area_m2;
+            light += loads_[load].outlook.area_m2 * colour * colour;
             outlook.add(loads_[load].outlook);
         }
-        if (area_m2 > 0.0) out.colour = glm::u8vec4(glm::u8vec3(glm::round(glm::sqrt(light / area_m2))), out.colour.w);
+        if (outlook.area_m2 > 0.0)
+            out.colour = {glm::u8vec3(glm::round(glm::sqrt(light / outlook.area_m2))), out.colour.w};
         const glm::dvec3 normal = lod::area_vector_m2(out.face);
         if (!is_glass(out.colour)) out.colour.w = outlook.finish(normal);
         if (glm::dot(normal, outlook.sum_m2) < 0.0) std::swap(out.face.b, out.face.c);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lod/surface/surface_distance.h"
+
 namespace objects {
 
 namespace {
 
 using lod::Triangle;
 
+constexpr lod::PieceSearch kSearch{.most_pieces = 1024, .smallest_share = 1.0 / 32};
 constexpr int kRounds = 8;
 constexpr double kMostFactor = 1.5;   ///< of one round
 constexpr double kLeastFactor = 1.1;  ///< … nearer than that to what is wanted it is good
@@ -38,8 +41,16 @@ Triangle scaled_across(const Triangle& face, double factor, double least_m) {
 
 }  // namespace
 
-void spread(const FitTarget& target, double limit_m, double wanted_m2,
-            const std::function<bool(const Triangle&)>& holds, Triangle& face) {
+void spread(const FitTarget& target, std::span<const glm::dvec3> held, double limit_m, double wanted_m2,
+            Triangle& face) {
+    const auto is_near = [&](const Triangle& tried) {
+        lod::PieceSearch search = kSearch;
+        return std::all_of(held.begin(), held.end(),
+                           [&](const glm::dvec3& point) {
+                               return lod::squared_distance(point, tried) <= limit_m * limit_m;
+                           }) &&
+               lod::is_within(tried, *target.tree, limit_m, search);
+    };
     double most = kMostFactor;
     for (int round = 0; round < kRounds && most >= kLeastFactor; ++round) {
         const double now_m2 = lod::area_m2(face), factor = now_m2 > 0.0 ? wanted_m2 / now_m2 : most;
@@ -47,7 +58,7 @@ void spread(const FitTarget& target, double limit_m, double wanted_m2,
         Triangle tried = scaled_across(face, std::clamp(factor, 1.0 / most, most), kThinShare * limit_m);
         const bool is_better = fit(target, limit_m, {&tried, 1}) &&
                                std::abs(lod::area_m2(tried) - wanted_m2) < std::abs(now_m2 - wanted_m2) &&
-                               holds(tried);
+                               is_near(tried);
         if (is_better)
             face = tried;
         else

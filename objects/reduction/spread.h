@@ -8,20 +8,20 @@
 // surface is as good as can be. Source: Cauchy's formula on projections (1841).
 #pragma once
 
-#include <functional>
+#include <span>
 
 #include "objects/reduction/fit.h"
 
 namespace objects {
 
-/// Broadens or narrows a face, moving it where it has to be, while it is asked to hold.
-/// @param target     what it may have to be moved to
+/// Broadens or narrows a face and moves it where it has to be.
+/// @param target     what it is moved by
+/// @param held       points that are within the limit of the face, and stay so
 /// @param limit_m    > 0
 /// @param wanted_m2  area it should have
-/// @param holds      whether a face is near enough, proved; is asked of some ten
-/// @param face       in and out; holds before, and after
-/// Cost: some ten fits.
-void spread(const FitTarget& target, double limit_m, double wanted_m2,
-            const std::function<bool(const lod::Triangle&)>& holds, lod::Triangle& face);
+/// @param face       in and out; stays within the limit of the target's surface, proved, if it was
+/// Cost: up to eight fits and proofs. Deterministic.
+void spread(const FitTarget& target, std::span<const glm::dvec3> held, double limit_m, double wanted_m2,
+            lod::Triangle& face);
 
 }  // namespace objects

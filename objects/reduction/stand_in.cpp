@@ -48,8 +48,9 @@ bool are_all_within(const FaceSoup& from, const lod::TriangleTree& to, double li
 }
 
 bool is_of_one_kind(const FaceSoup& part) {
-    return std::all_of(part.colours.begin(), part.colours.end(),
-                       [&](const glm::u8vec4& colour) { return is_glass(colour) == is_glass(part.colours[0]); });
+    return std::all_of(part.colours.begin(), part.colours.end(), [&](const glm::u8vec4& colour) {
+        return is_glass(colour) == is_glass(part.colours[0]);
+    });
 }
 
 /// A part that is asked what may stand for it.
@@ -87,16 +88,6 @@ class Asked {
     }
 };
 
-void spread_load(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, FaceLoad& load) {
-    const auto holds = [&](const lod::Triangle& face) {
-        lod::PieceSearch search = kSearch;
-        return std::all_of(load.corners.begin(), load.corners.end(), [&](const glm::dvec3& corner) {
-            return lod::squared_distance(corner, face) <= limit_m * limit_m;
-        }) && lod::is_within(face, tree, limit_m, search);
-    };
-    spread({load.corners, part.view(), &tree}, limit_m, load.outlook.covering_m2(), holds, load.face);
-}
-
 /// How the faces of a shape are lit that stands for an opaque part.
 void settle_finish(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, bool is_loose,
                    FaceSoup& shape) {
@@ -107,13 +98,18 @@ void settle_finish(const FaceSoup& part, const lod::TriangleTree& tree, double l
     std::vector<FaceLoad> loads = share_out(part, shape, limit_m);
     if (loads.empty()) return;
     if (is_loose) shape.points.clear();
+    Outlook whole;
+    for (const FaceLoad& load : loads)
+        whole.add(load.outlook);
     for (size_t face = 0; face < loads.size(); ++face) {
         FaceLoad& load = loads[face];
         if (is_loose) {
-            if (!load.corners.empty()) spread_load(part, tree, limit_m, load);
+            if (!load.corners.empty())
+                spread({load.corners, part.view(), &tree}, load.corners, limit_m, load.outlook.covering_m2(),
+                       load.face);
             shape.points.insert(shape.points.end(), {load.face.a, load.face.b, load.face.c});
         }
-        shape.colours[face].w = load.outlook.finish(lod::area_vector_m2(load.face));
+        shape.colours[face].w = (is_loose ? whole : load.outlook).finish(lod::area_vector_m2(load.face));
     }
 }
 

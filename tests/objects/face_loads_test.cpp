@@ -30,7 +30,7 @@ TEST(FaceLoads, AllOfASurfaceIsSharedOutAndNearAtEveryCorner) {
         ASSERT_EQ(loads.size(), count);
         double shared_m2 = 0.0;
         for (const FaceLoad& load : loads) {
-            shared_m2 += load.area_m2;
+            shared_m2 += load.outlook.area_m2;
             EXPECT_GT(load.corners.size(), 20u);
             for (const glm::dvec3& corner : load.corners)
                 EXPECT_LE(lod::squared_distance(corner, load.face), limit_m * limit_m);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "objects/reduction/finish.h"
+
 namespace objects {
 namespace {
 
@@ -113,18 +115,19 @@ TEST(Recolour, WhatIsHiddenDoesNotCount) {
 
 TEST(Recolour, WhatIsFarOrFacesElsewhereDoesNotCount) {
     FaceSoup source;
-    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.0, {255, 0, 0, 255}, source);  // beyond the limit
-    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.1, {0, 255, 0, 128}, source);  // glass
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.0, {255, 0, 0, 255}, source);              // beyond the limit
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.1, {0, 255, 0, objects::kGlass}, source);  // glass
     FaceSoup wall;
     add_rectangle({0.0, 0.0}, {10.0, 20.0}, 0.0, {10, 20, 30, 255}, wall);
     recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, wall, 0.5), 0.5, wall);
     for (const glm::u8vec4& colour : wall.colours)
         EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 255));
     FaceSoup pane;
-    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.1, {10, 20, 30, 128}, pane);  // takes no colour of a wall's
+    add_rectangle({0.0, 0.0}, {10.0, 20.0}, 3.1, {10, 20, 30, objects::kGlass},
+                  pane);  // takes no colour of a wall's
     recolour(source, lod::TriangleTree(source.view()), nearest_faces(source, pane, 0.5), 0.5, pane);
     for (const glm::u8vec4& colour : pane.colours)
-        EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, 128));
+        EXPECT_EQ(colour, glm::u8vec4(10, 20, 30, objects::kGlass));
 }
 
 }  // namespace

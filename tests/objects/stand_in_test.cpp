@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "objects/reduction/finish.h"
 #include "objects/reduction/outline.h"
 #include "tests/objects/boxes.h"
 #include "tests/objects/prisms.h"
@@ -78,7 +79,7 @@ TEST(StandIn, WhatIsNoPrismHasNone) {
 
 TEST(StandIn, GlassIsNotMixedWithWalls) {
     FaceSoup part = prism(12, 3.25, 12.0);
-    part.colours[3].w = 100;
+    part.colours[3].w = objects::kGlass;
     EXPECT_TRUE(objects::stand_in(part, 3.4).soup.faces.empty());
 }
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "tests/render/scene_kit.h"
 
@@ -38,6 +41,84 @@ TEST_F(RendererTest, LightFallsFromTheSunAndTheSky) {
                   brightness(material, {0, 0, -1}, renderer) + 15);
     }
     EXPECT_EQ(brightness(Material::kGlow, {0, 0, -1}, renderer), 3 * 180);
+}
+
+using Light = std::array<double, 3>;  // red, green, blue, linear up to a factor
+
+/// Of a rectangle that fills the picture.
+Light light_of(const lod::View& view, const glm::dvec3& sun, const std::function<void(lod::Vertex&)>& set,
+               render::Renderer& renderer) {
+    Scene scene;
+    add_quad(rectangle(view, {-16, -16}, {16, 16}, 5.0), {}, scene);
+    std::for_each(scene.vertices.begin(), scene.vertices.end(), set);
+    render::Atmosphere atmosphere = vacuum();
+    atmosphere.sun_world = sun;
+    draw(view, atmosphere, scene, renderer);
+    const auto colour = renderer.read_colour();
+    Light light{};
+    for (int k = 0; k < 3; ++k)
+        light[size_t(k)] = std::pow(channel(colour, 16, 16, k), 2.0);
+    return light;
+}
+
+/// … of paint that looks one way, without its sheen, which is all that black paint shows.
+Light light_one_way(const lod::View& view, const glm::dvec3& sun, const glm::dvec3& normal,
+                    render::Renderer& renderer) {
+    const auto with = [&](const glm::u8vec3& colour) {
+        return light_of(
+            view, sun,
+            [&](lod::Vertex& v) {
+                v = lod::make_vertex(lod::position_of(v), glm::vec3(normal), colour, Material::kPaint);
+            },
+            renderer);
+    };
+    Light light = with({200, 180, 160});
+    const Light sheen = with({0, 0, 0});
+    for (size_t k = 0; k < 3; ++k)
+        light[k] -= sheen[k];
+    return light;
+}
+
+/// A round tower's light is the mean of what is seen of it, strip by strip and its roof.
+TEST_F(RendererTest, WhatStandsForSurfacesAllRoundHasTheirMeanLight) {
+    RENDERER_OR_SKIP(renderer, 32, 32);
+    const int strips = 72;
+    for (const double up_share : {0.0, 0.1, 0.6}) {
+        for (const double sun_deg : {0.0, 50.0, 110.0, 180.0}) {
+            for (const double down : {0.0, 0.4, 2.0}) {
+                lod::View narrow = view_of_size(32, 32);
+                narrow.fov_y_rad = 0.01;
+                const lod::View view = lod::look_at({0, 0, 0}, {0, 1, -down}, {0, 0, 1}, narrow);
+                const glm::dvec3 towards_eye = glm::normalize(glm::dvec3(0, -1, down));
+                const double angle = glm::radians(sun_deg);
+                const glm::dvec3 sun = glm::normalize(glm::dvec3(std::sin(angle), -std::cos(angle), 0.7));
+                Light sum{};
+                double weight = 0.0;
+                const auto add = [&](const glm::dvec3& normal, double area) {
+                    const double seen = area * std::max(glm::dot(normal, towards_eye), 0.0);
+                    if (!(seen > 0.0)) return;
+                    const Light light = light_one_way(view, sun, normal, renderer);
+                    for (size_t k = 0; k < 3; ++k)
+                        sum[k] += seen * light[k];
+                    weight += seen;
+                };
+                for (int i = 0; i < strips; ++i) {
+                    const double turn = 2.0 * std::numbers::pi * (i + 0.5) / strips;
+                    add({std::cos(turn), std::sin(turn), 0.0}, (1.0 - up_share) / strips);
+                }
+                add({0, 0, 1}, up_share);
+                const Light light = light_of(
+                    view, sun,
+                    [&](lod::Vertex& v) {
+                        v = lod::make_all_round_vertex(lod::position_of(v), up_share, {200, 180, 160});
+                    },
+                    renderer);
+                for (size_t k = 0; k < 3; ++k)
+                    EXPECT_NEAR(std::sqrt(light[k]), std::sqrt(sum[k] / weight), 2.5)
+                        << up_share << " " << sun_deg << " " << down;
+            }
+        }
+    }
 }
 
 TEST_F(RendererTest, TheGroundTextureHasItsTexelsOnTheSamples) {
