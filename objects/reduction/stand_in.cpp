@@ -88,9 +88,10 @@ class Asked {
     }
 };
 
-/// How the faces of a shape are lit that stands for an opaque part.
-void settle_finish(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, bool is_loose,
-                   FaceSoup& shape) {
+/// How broad the faces of a shape are that stands for an opaque part, and how they are lit: loose ones all alike, through the
+/// gaps between them their backs are seen, too.
+void settle_look(const FaceSoup& part, const lod::TriangleTree& tree, double limit_m, bool is_loose,
+                 FaceSoup& shape) {
     if (is_glass(part.colours[0])) return;
     for (glm::u8vec4& colour : shape.colours)
         colour.w = kByNormal;
@@ -170,7 +171,7 @@ StandIn stand_in(const FaceSoup& part, double limit_m) {
         if (!near) continue;
         near->colours.assign(near->faces.size(), part.colours[0]);
         if (shape.is_for_gathering || shape.is_loose) found.to_gather = *near;
-        settle_finish(part, asked.tree(), limit_m, shape.is_loose, *near);
+        settle_look(part, asked.tree(), limit_m, shape.is_loose, *near);
         if (shape.is_for_gathering) continue;
         found.soup = std::move(*near);
         found.is_card = shape.is_card;
