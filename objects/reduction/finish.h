@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-
 #include <glm/glm.hpp>
 
 namespace objects {
@@ -48,12 +47,14 @@ struct Outlook {
     void add(const glm::dvec3& area_vector_m2, const glm::u8vec4& colour) {
         const double area = glm::length(area_vector_m2);
         if (!(area > 0.0)) return;
-        area_m2 += area;
         if (is_all_round(colour)) {
-            up_m2 += up_share(colour) * area;
-            round_m2 += (1.0 - up_share(colour)) * area;
+            const double stands_for_m2 = 2.0 * area;
+            area_m2 += stands_for_m2;
+            up_m2 += up_share(colour) * stands_for_m2;
+            round_m2 += (1.0 - up_share(colour)) * stands_for_m2;
             return;
         }
+        area_m2 += area;
         sum_m2 += area_vector_m2;
         axes_m2 += glm::outerProduct(area_vector_m2, area_vector_m2 / area);
         up_m2 += std::max(area_vector_m2.z, 0.0);

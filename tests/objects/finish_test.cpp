@@ -73,6 +73,7 @@ TEST(Finish, AllRoundStaysAllRound) {
     const glm::u8vec4 colour(0, 0, 0, two.finish({0, 0, 1}));
     ASSERT_TRUE(objects::is_all_round(colour));
     EXPECT_NEAR(objects::up_share(colour), 0.3, 0.005);
+    EXPECT_DOUBLE_EQ(two.covering_m2(), 10.0);
 }
 
 /// Shadows of a convex solid and of a face with what it should have, along random directions.
