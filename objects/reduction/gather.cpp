@@ -13,6 +13,7 @@
 #include "objects/alive_tree.h"
 #include "objects/reduction/extremes.h"
 #include "objects/reduction/fit.h"
+#include "objects/reduction/joint_face.h"
 #include "objects/reduction/seen_part.h"
 #include "objects/reduction/spread.h"
 
@@ -25,7 +26,6 @@ using lod::Triangle;
 constexpr size_t kNeighbours = 8;                         ///< of a face at first
 constexpr size_t kMostNeighbours = 16;                    ///< of what is gathered
 constexpr size_t kMostDissolved = 4;                      ///< loads of a face that is given up
-constexpr double kSlender = 4.0;                          ///< so many breadths long
 constexpr uint64_t kFirstTries = 256, kTriesForOne = 24;  ///< fewer finds than one in so many, and it stops
 constexpr uint32_t kNone = 0xffffffffu;
 constexpr lod::PieceSearch kSearch{.most_pieces = 1024, .smallest_share = 1.0 / 32};
@@ -60,58 +60,6 @@ struct Pair {
         return rank != other.rank ? rank > other.rank : a != other.a ? a > other.a : b > other.b;
     }
 };
-
-/// Where a face for two may begin: the largest of their corners …
-Triangle largest_face(const std::array<glm::dvec3, 6>& corners) {
-    Triangle largest;
-    double most = -1.0;
-    for (size_t i = 0; i < 6; ++i) {
-        for (size_t k = i + 1; k < 6; ++k) {
-            for (size_t l = k + 1; l < 6; ++l) {
-                const glm::dvec3 cross = glm::cross(corners[k] - corners[i], corners[l] - corners[i]);
-                if (glm::dot(cross, cross) <= most) continue;
-                most = glm::dot(cross, cross);
-                largest = {corners[i], corners[k], corners[l]};
-            }
-        }
-    }
-    return largest;
-}
-
-/// … or between the two that are farthest apart, half as broad as they are.
-Triangle narrow_face(const std::array<glm::dvec3, 6>& corners) {
-    Triangle face;
-    double most = -1.0;
-    for (size_t i = 0; i < 6; ++i) {
-        for (size_t k = i + 1; k < 6; ++k) {
-            const double apart2 = lod::squared_distance(corners[i], corners[k]);
-            if (apart2 > most) most = apart2, face.a = corners[i], face.b = corners[k];
-        }
-    }
-    most = -1.0;
-    for (const glm::dvec3& corner : corners) {
-        const glm::dvec3 near = lod::nearest_on_segment(corner, face.a, face.b);
-        const double off2 = lod::squared_distance(corner, near);
-        if (off2 > most) most = off2, face.c = 0.5 * (corner + near);
-    }
-    return face;
-}
-
-/// Whether points lie along a line: what is so slender, a mast of several parts, would vanish seen from the edge of a single
-/// face.
-bool is_rod(std::span<const glm::dvec3> points) {
-    const glm::dvec3 axis = long_axis(points);
-    double first_m = std::numeric_limits<double>::infinity(), last_m = -first_m;
-    glm::dvec3 low(first_m), high(-first_m);  // across the axis
-    for (const glm::dvec3& point : points) {
-        const double along_m = glm::dot(axis, point);
-        first_m = std::min(first_m, along_m);
-        last_m = std::max(last_m, along_m);
-        low = glm::min(low, point - along_m * axis);
-        high = glm::max(high, point - along_m * axis);
-    }
-    return last_m - first_m >= kSlender * glm::length(high - low);
-}
 
 class Gathering {
   public:

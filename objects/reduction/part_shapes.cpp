@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kSpikeCover =
     0.5 * std::numbers::pi;          ///< a sheet covers 2 / pi of its breadth, seen from all around
-constexpr double kSlender = 4.0;     ///< so many breadths long
 constexpr double kReachShare = 0.9;  ///< of the limit, that something may be broader than what it stands for
 constexpr double kFlatShare = 1.0 / 16.0;  ///< of its shorter side: as high, a part may be one side of a lid
 // Radii, in limits, up to and from which faces that lean together may do.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace objects {
@@ -60,6 +61,20 @@ glm::dvec3 long_axis(std::span<const glm::dvec3> points) {
         axis /= size;
     }
     return axis;
+}
+
+bool is_rod(std::span<const glm::dvec3> points) {
+    const glm::dvec3 axis = long_axis(points);
+    double first_m = std::numeric_limits<double>::infinity(), last_m = -first_m;
+    glm::dvec3 low(first_m), high(-first_m);  // across the axis
+    for (const glm::dvec3& point : points) {
+        const double along_m = glm::dot(axis, point);
+        first_m = std::min(first_m, along_m);
+        last_m = std::max(last_m, along_m);
+        low = glm::min(low, point - along_m * axis);
+        high = glm::max(high, point - along_m * axis);
+    }
+    return last_m - first_m >= kSlender * glm::length(high - low);
 }
 
 std::vector<glm::dvec3> prism_samples(const SeenPart& seen, double step_m) {

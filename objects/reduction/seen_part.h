@@ -29,6 +29,12 @@ SeenPart see_along(std::span<const glm::dvec3> points, const glm::dvec3& axis);
 /// Along which points are spread most, of length 1; upwards where all are one. Source: the power method.
 glm::dvec3 long_axis(std::span<const glm::dvec3> points);
 
+inline constexpr double kSlender =
+    4.0;  ///< so many breadths long: what would vanish, seen from the edge of a single face
+
+/// Whether points, at least one, lie along a line: a mast, perhaps of several parts.
+bool is_rod(std::span<const glm::dvec3> points);
+
 /// Along the rectangle's longer side, through its middle.
 struct Line {
     glm::dvec2 middle{0.0}, half{0.0};
