@@ -13,7 +13,7 @@ constexpr float kFarthest_px = 8192.0f;  ///< beyond, a float is coarser than th
 constexpr float kNoLimit_px = 1e9f;
 /// Boxes of smaller ones are not worth their time: they hide nothing that others would not, and where they cover a part of a
 /// cell, it counts as far as the farthest of them.
-constexpr float kLeastArea_px = 16.0f;
+constexpr float kLeastArea_px = 48.0f;
 
 /// x of an edge over the rows of a picture; pixel centres stand at whole numbers.
 struct Edge {
