@@ -22,11 +22,6 @@ constexpr double kLongFace = 2.0;        ///< limits: a longer face is asked at 
 constexpr double kVeryLongFace = 12.0;   ///< … and a very long one at very many
 constexpr int kPoints = 32, kManyPoints = 64;
 
-/// Twice the area, along the normal.
-glm::dvec3 area_vector(const lod::Triangle& t) {
-    return glm::cross(t.b - t.a, t.c - t.a);
-}
-
 glm::dvec3 light_of(const glm::u8vec4& colour) {
     const glm::dvec3 c(colour.x, colour.y, colour.z);
     return c * c;
@@ -107,8 +102,8 @@ void join_halves(const FaceSoup& soup, std::vector<Mixtures>& mixtures) {
         }
         const auto [half, is_first] = by_diagonal.emplace(longest, face);
         if (is_first || is_glass(soup.colours[face]) || is_glass(soup.colours[half->second])) continue;
-        const glm::dvec3 one = area_vector(soup.view().triangle(face)),
-                         other = area_vector(soup.view().triangle(half->second));
+        const glm::dvec3 one = lod::area_vector_m2(soup.view().triangle(face)),
+                         other = lod::area_vector_m2(soup.view().triangle(half->second));
         if (!(glm::dot(one, other) > kFlatCosine * glm::length(one) * glm::length(other))) continue;
         mixtures[face].add(mixtures[half->second]);
         mixtures[half->second] = mixtures[face];
@@ -145,7 +140,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
     const auto add = [&](uint32_t face, const glm::dvec3& area, const glm::dvec3& light,
                          auto Mixtures::*towards, auto Mixtures::*away) {
         if (face == kNoFace || is_glass(result.colours[face])) return;
-        const glm::dvec3 front = area_vector(result.view().triangle(face));
+        const glm::dvec3 front = lod::area_vector_m2(result.view().triangle(face));
         const double cosine = glm::dot(area, front) / (glm::length(area) * glm::length(front));
         if (!(std::abs(cosine) >= kLeastCosine)) return;
         (mixtures[face].*(cosine > 0.0 ? towards : away)).add(light, glm::length(area) * std::abs(cosine));
@@ -153,7 +148,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
     for (size_t face = 0; face < source.faces.size(); ++face) {
         if (is_glass(source.colours[face])) continue;
         const lod::Triangle triangle = source.view().triangle(face);
-        const glm::dvec3 whole = area_vector(triangle), light = light_of(source.colours[face]);
+        const glm::dvec3 whole = lod::area_vector_m2(triangle), light = light_of(source.colours[face]);
         const double size = glm::length(whole);
         if (!(size > 0.0)) continue;
         samples_of(triangle, nearest[face], limit_m, samples);

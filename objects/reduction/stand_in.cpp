@@ -15,7 +15,7 @@ namespace objects {
 
 namespace {
 
-constexpr size_t kMostLoose = 5;      ///< faces of shapes that are less than a solid
+constexpr size_t kMostLoose = 5;      ///< faces of shapes that are no solid: a tent's
 constexpr size_t kMostFaces = 4096;   ///< of a part; what has more is hardly a prism
 constexpr double kUprightCos = 0.9;   ///< what is longest that way is seen from above only
 constexpr double kSampleShare = 0.8;  ///< of the limit, between samples one above the other
@@ -171,8 +171,8 @@ StandIn stand_in(const FaceSoup& part, double limit_m) {
         if (!near) continue;
         near->colours.assign(near->faces.size(), part.colours[0]);
         if (shape.is_for_gathering || shape.is_loose) found.to_gather = *near;
-        settle_look(part, asked.tree(), limit_m, shape.is_loose, *near);
         if (shape.is_for_gathering) continue;
+        settle_look(part, asked.tree(), limit_m, shape.is_loose, *near);
         found.soup = std::move(*near);
         found.is_card = shape.is_card;
         break;
