@@ -12,7 +12,8 @@ namespace lod {
 namespace {
 
 constexpr uint32_t kNothing = 0xffffffffu;
-constexpr uint32_t kLeafTriangles = 4;
+constexpr uint32_t kLeafTriangles =
+    1;  ///< more cost a quarter more time: a box of its own keeps most from being asked
 constexpr size_t kMaxDepth = 64;  ///< halving 2^32 triangles needs 32; two entries a level at the most
 
 inline double squared_distance_to_box(const glm::dvec3& point, const glm::dvec3& low,
@@ -31,32 +32,43 @@ double longest_edge_m(const Triangle& t) {
 constexpr double kBeyondTheWay = 2.0;  ///< no share of it
 constexpr double kSlack = 1e-9;        ///< of a way: boxes are as flat as what is in them
 
-/// The share of a way at which it enters a box.
-/// @param per_way  1 / way
-double share_to_box(const glm::dvec3& from, const glm::dvec3& per_way, const glm::dvec3& low,
-                    const glm::dvec3& high) {
-    double begin = 0.0, end = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::isinf(per_way[axis])) {
-            if (from[axis] < low[axis] || from[axis] > high[axis]) return kBeyondTheWay;
-            continue;
-        }
-        const double a = (low[axis] - from[axis]) * per_way[axis],
-                     b = (high[axis] - from[axis]) * per_way[axis];
-        begin = std::max(begin, std::min(a, b) - kSlack);
-        end = std::min(end, std::max(a, b) + kSlack);
+constexpr double kNever =
+    1e300;  ///< per way where there is none along an axis; not infinity: 0 times it is 0
+
+/// From one point straight to another, and the box around it.
+struct Way {
+    glm::dvec3 from, along, per, low, high;  ///< per: 1 / along
+
+    Way(const glm::dvec3& start, const glm::dvec3& end)
+        : from(start), along(end - start), low(glm::min(start, end)), high(glm::max(start, end)) {
+        for (int axis = 0; axis < 3; ++axis)
+            per[axis] = std::clamp(1.0 / along[axis], -kNever, kNever);
+        const glm::dvec3 slack = kSlack * (high - low);
+        low -= slack;
+        high += slack;
     }
+};
+
+/// The share of a way at which it enters a box.
+double share_to_box(const Way& way, const glm::dvec3& low, const glm::dvec3& high) {
+    if (low.x > way.high.x || high.x < way.low.x || low.y > way.high.y || high.y < way.low.y ||
+        low.z > way.high.z || high.z < way.low.z)
+        return kBeyondTheWay;
+    const glm::dvec3 a = (low - way.from) * way.per, b = (high - way.from) * way.per;
+    const glm::dvec3 first = glm::min(a, b), last = glm::max(a, b);
+    const double begin = std::max(std::max(first.x, first.y), std::max(first.z, kSlack)) - kSlack;
+    const double end = std::min(std::min(last.x, last.y), std::min(last.z, 1.0 - kSlack)) + kSlack;
     return begin <= end ? begin : kBeyondTheWay;
 }
 
 /// The share of a way at which it meets a triangle.
 /// Source: Möller, Trumbore, Fast, minimum storage ray/triangle intersection (1997).
-double share_to_triangle(const glm::dvec3& from, const glm::dvec3& way, const Triangle& t) {
-    const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, across = glm::cross(way, ac);
+double share_to_triangle(const Way& way, const Triangle& t) {
+    const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, across = glm::cross(way.along, ac);
     const double volume = glm::dot(ab, across);
     if (volume == 0.0) return kBeyondTheWay;
-    const glm::dvec3 at = from - t.a, along = glm::cross(at, ab);
-    const double b = glm::dot(at, across) / volume, c = glm::dot(way, along) / volume,
+    const glm::dvec3 at = way.from - t.a, along = glm::cross(at, ab);
+    const double b = glm::dot(at, across) / volume, c = glm::dot(way.along, along) / volume,
                  share = glm::dot(ac, along) / volume;
     const bool is_met = b >= 0.0 && c >= 0.0 && b + c <= 1.0 && share >= 0.0 && share <= 1.0;
     return is_met ? share : kBeyondTheWay;
@@ -221,23 +233,31 @@ TriangleHit TriangleTree::any_within(const glm::dvec3& point, double limit_m) co
     return {original_[found], std::sqrt(best2)};
 }
 
-TriangleHit TriangleTree::first_on_way(const glm::dvec3& from, const glm::dvec3& to) const {
+TriangleHit TriangleTree::on_way(const glm::dvec3& from, const glm::dvec3& to, double enough) const {
     if (is_empty()) return {};
-    const glm::dvec3 way = to - from, per_way = 1.0 / way;
+    const Way way(from, to);
     double best = kBeyondTheWay;  // shares of the way; descend leaves out what is no nearer
     uint32_t found = kNothing;
     descend(
-        nodes_, [&](const Node& node) { return share_to_box(from, per_way, node.low, node.high); }, best,
+        nodes_, [&](const Node& node) { return share_to_box(way, node.low, node.high); }, best,
         [&](uint32_t i) {
-            const double share = is_shown_[i] ? share_to_triangle(from, way, triangles_[i]) : kBeyondTheWay;
+            const double share = is_shown_[i] ? share_to_triangle(way, triangles_[i]) : kBeyondTheWay;
             if (share < best) {
                 best = share;
                 found = i;
             }
-            return best == 0.0;
+            return best <= enough;
         });
     if (found == kNothing) return {};
-    return {original_[found], best * glm::length(way)};
+    return {original_[found], best * glm::length(way.along)};
+}
+
+TriangleHit TriangleTree::first_on_way(const glm::dvec3& from, const glm::dvec3& to) const {
+    return on_way(from, to, 0.0);
+}
+
+bool TriangleTree::is_on_way(const glm::dvec3& from, const glm::dvec3& to) const {
+    return on_way(from, to, 1.0).triangle != kNothing;
 }
 
 TriangleHit TriangleTree::cover(const Triangle& corners, double enough_m, uint32_t hint) const {

@@ -43,6 +43,9 @@ class TriangleTree {
     /// Rounding decides at edges and where the way lies in a triangle's plane.
     TriangleHit first_on_way(const glm::dvec3& from, const glm::dvec3& to) const;
 
+    /// Whether there is one; cheaper than which.
+    bool is_on_way(const glm::dvec3& from, const glm::dvec3& to) const;
+
     /// The triangle for which the largest of the corners' distances is least. Stops early at one where it is at
     /// most `enough_m`.
     /// @param hint  a triangle to try first, as an earlier answer gave it; any other number: none
@@ -62,6 +65,8 @@ class TriangleTree {
     };
     struct Builder;
 
+    /// @param enough  the first that is found within that share of the way will do
+    TriangleHit on_way(const glm::dvec3& from, const glm::dvec3& to, double enough) const;
     TriangleHit cover_below(const Triangle& corners, double enough2, double below2, uint32_t hint) const;
 
     std::vector<Node> nodes_;

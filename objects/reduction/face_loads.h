@@ -14,6 +14,7 @@ struct FaceLoad {
     glm::u8vec4 colour{0};
     std::vector<glm::dvec3> corners;  ///< of the pieces, each once
     Outlook outlook;                  ///< of the pieces
+    uint32_t part = 0;                ///< that they belong to, by whoever asks
 };
 
 /// @param surface  pieces are its faces, halved where no single one of `faces` is near to all of one

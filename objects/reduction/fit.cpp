@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "lod/base/check.h"
@@ -17,6 +18,7 @@ constexpr double kAimShare = 0.96;   ///< of the limit: as far as a pull goes
 constexpr double kStepShare = 0.75;  ///< … between two samples of a triangle
 constexpr int kMostSteps = 8;        ///< of a triangle's edge
 constexpr int kRounds = 32;
+constexpr uint32_t kNotAsked = 0xffffffffu;
 
 /// What is still so far off after so many rounds is given up.
 struct Hope {
@@ -27,14 +29,24 @@ constexpr std::array<Hope, 3> kHopes = {{{3, 1.8}, {6, 1.35}, {12, 1.12}}};
 
 /// A point of a triangle that is asked how far from the surface it is, again only when it can have come too far.
 struct Sample {
-    glm::dvec3 shares{0.0};  ///< of the corners
-    double room_m = 0.0;     ///< so far its triangle may move until then
-    uint32_t near = 0;       ///< a face of the surface
+    glm::dvec3 shares{0.0};     ///< of the corners
+    uint32_t near = kNotAsked;  ///< a face of the surface
+    double safe_until_m = 0.0;  ///< of what its triangle has moved
 };
 
 struct Fitted {
     Triangle* triangle = nullptr;
     std::vector<Sample> samples;
+    double moved_m = 0.0;  ///< no point of it has gone farther
+};
+
+/// A point of the surface, that is asked again only when its triangle can have left it.
+struct Held {
+    glm::dvec3 point{0.0};
+    Fitted* nearest = nullptr;
+    double safe_until_m = 0.0;
+
+    bool is_safe() const { return nearest != nullptr && nearest->moved_m <= safe_until_m; }
 };
 
 /// Of the corners in a point of the triangle; they sum to one.
@@ -77,9 +89,18 @@ void pull(const glm::dvec3& shares, const glm::dvec3& by, Fitted& fitted) {
     t.a += move.x * by;
     t.b += move.y * by;
     t.c += move.z * by;
-    const double farthest_m = std::max({move.x, move.y, move.z}) * glm::length(by);
-    for (Sample& sample : fitted.samples)
-        sample.room_m -= farthest_m;
+    fitted.moved_m += std::max({move.x, move.y, move.z}) * glm::length(by);
+}
+
+/// Each point once, in the order of their first.
+std::vector<Held> hold(std::span<const glm::dvec3> points) {
+    std::vector<Held> held;
+    for (const glm::dvec3& point : points) {
+        const bool is_known =
+            std::any_of(held.begin(), held.end(), [&](const Held& other) { return other.point == point; });
+        if (!is_known) held.push_back({.point = point});
+    }
+    return held;
 }
 
 void take_samples(double limit_m, Fitted& fitted) {
@@ -90,27 +111,28 @@ void take_samples(double limit_m, Fitted& fitted) {
         std::clamp(static_cast<int>(std::sqrt(longest2) / (kStepShare * limit_m)) + 1, 3, kMostSteps);
     for (int b = 0; b <= steps; ++b) {
         for (int c = 0; b + c <= steps; ++c)
-            fitted.samples.push_back({glm::dvec3(steps - b - c, b, c) / double(steps), 0.0});
+            fitted.samples.push_back({.shares = glm::dvec3(steps - b - c, b, c) / double(steps)});
     }
 }
 
-/// The largest distance of a point from the triangles, before it has pulled.
-double pull_to_points(std::span<const glm::dvec3> points, double limit_m, std::span<Fitted> all) {
+/// The largest distance of a point from the triangles, before it has pulled; of those that are not safe.
+double pull_to_points(std::span<Held> points, double limit_m, std::span<Fitted> all) {
     double worst_m = 0.0;
-    for (const glm::dvec3& point : points) {
-        Fitted* nearest = nullptr;
+    for (Held& held : points) {
+        if (held.is_safe()) continue;
         glm::dvec3 at(0.0);
-        double distance2 = 0.0;
+        double distance2 = std::numeric_limits<double>::infinity();
         for (Fitted& fitted : all) {
-            const glm::dvec3 here = lod::nearest_on_triangle(point, *fitted.triangle);
-            const double here2 = lod::squared_distance(point, here);
-            if (nearest == nullptr || here2 < distance2) nearest = &fitted, at = here, distance2 = here2;
+            const glm::dvec3 here = lod::nearest_on_triangle(held.point, *fitted.triangle);
+            const double here2 = lod::squared_distance(held.point, here);
+            if (here2 < distance2) held.nearest = &fitted, at = here, distance2 = here2;
         }
-        const double distance_m = std::sqrt(distance2);
+        const double distance_m = std::sqrt(distance2), off_m = distance_m - kAimShare * limit_m;
         worst_m = std::max(worst_m, distance_m);
-        if (distance_m > kAimShare * limit_m)
-            pull(shares_at(at, *nearest->triangle), (1.0 - kAimShare * limit_m / distance_m) * (point - at),
-                 *nearest);
+        held.safe_until_m = held.nearest->moved_m - off_m;
+        if (off_m > 0.0)
+            pull(shares_at(at, *held.nearest->triangle), off_m / distance_m * (held.point - at),
+                 *held.nearest);
     }
     return worst_m;
 }
@@ -118,20 +140,23 @@ double pull_to_points(std::span<const glm::dvec3> points, double limit_m, std::s
 /// … of a triangle's sample from the surface.
 double pull_to_surface(const FitTarget& target, double limit_m, Fitted& fitted) {
     double worst_m = 0.0;
+    uint32_t last_near = 0;
     for (Sample& sample : fitted.samples) {
-        if (sample.room_m > 0.0) continue;
+        if (fitted.moved_m < sample.safe_until_m) continue;
         const glm::dvec3 point = point_at(sample.shares, *fitted.triangle);
+        if (sample.near == kNotAsked) sample.near = last_near;
         glm::dvec3 at = lod::nearest_on_triangle(point, target.surface.triangle(sample.near));
         double distance_m = glm::length(at - point);
         if (distance_m > kAimShare * limit_m) {
             lod::TriangleHit hit = target.tree->any_within(point, kAimShare * limit_m);
-            if (hit.distance_m > kAimShare * limit_m) hit = target.tree->nearest(point);
-            sample.near = hit.triangle;
+            if (hit.distance_m > kAimShare * limit_m) hit = target.tree->nearest(point, distance_m);
+            if (hit.distance_m < distance_m) sample.near = hit.triangle;
             at = lod::nearest_on_triangle(point, target.surface.triangle(sample.near));
             distance_m = glm::length(at - point);
         }
+        last_near = sample.near;
         worst_m = std::max(worst_m, distance_m);
-        sample.room_m = limit_m - distance_m;
+        sample.safe_until_m = fitted.moved_m + limit_m - distance_m;
         if (distance_m > kAimShare * limit_m)
             pull(sample.shares, (1.0 - kAimShare * limit_m / distance_m) * (at - point), fitted);
     }
@@ -148,8 +173,9 @@ bool fit(const FitTarget& target, double limit_m, std::span<Triangle> triangles)
         all[i].triangle = &triangles[i];
         take_samples(limit_m, all[i]);
     }
+    std::vector<Held> points = hold(target.points);
     for (int round = 0; round < kRounds; ++round) {
-        double worst_m = pull_to_points(target.points, limit_m, all);
+        double worst_m = pull_to_points(points, limit_m, all);
         for (Fitted& fitted : all)
             worst_m = std::max(worst_m, pull_to_surface(target, limit_m, fitted));
         if (worst_m <= limit_m) return true;

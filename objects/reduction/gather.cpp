@@ -16,6 +16,7 @@
 #include "objects/reduction/joint_face.h"
 #include "objects/reduction/seen_part.h"
 #include "objects/reduction/spread.h"
+#include "objects/reduction/width.h"
 
 namespace objects {
 
@@ -27,6 +28,8 @@ constexpr size_t kNeighbours = 8;                         ///< of a face at firs
 constexpr size_t kMostNeighbours = 16;                    ///< of what is gathered
 constexpr size_t kMostDissolved = 4;                      ///< loads of a face that is given up
 constexpr uint64_t kFirstTries = 256, kTriesForOne = 24;  ///< fewer finds than one in so many, and it stops
+constexpr double kMostWidth =
+    2.1;  ///< limits, of what a plane may be near to; as it is measured a little too broad
 constexpr uint32_t kNone = 0xffffffffu;
 constexpr lod::PieceSearch kSearch{.most_pieces = 1024, .smallest_share = 1.0 / 32};
 
@@ -97,9 +100,10 @@ class Gathering {
 
     std::vector<Gathered> result() {
         std::vector<Gathered> all;
+        const std::vector<uint32_t> parts = shared_parts();
         for (Group& group : groups_) {
             if (group.went_to != kNone) continue;
-            spread_out(group);
+            if (std::ranges::binary_search(parts, loads_[group.loads[0]].part)) spread_out(group);
             all.push_back(finished(group));
         }
         return all;
@@ -175,7 +179,7 @@ class Gathering {
         std::array<glm::dvec3, 2 * Extremes::kCount> points;
         std::ranges::copy(one.extremes.points(), points.begin());
         std::ranges::copy(other.extremes.points(), points.begin() + Extremes::kCount);
-        if (is_rod(points)) return std::nullopt;
+        if (is_rod(points) || least_width_m(points) > kMostWidth * limit_m_) return std::nullopt;
         ++tried_;
         const FitTarget target{points, source_.view(), &tree_};
         const std::array<glm::dvec3, 6> corners = {one.face.a,   one.face.b,   one.face.c,
@@ -190,6 +194,18 @@ class Gathering {
             }
         }
         return std::nullopt;
+    }
+
+    /// Of which a face stands for something else, too; ascending.
+    std::vector<uint32_t> shared_parts() const {
+        std::vector<uint32_t> parts;
+        for (const Group& group : groups_) {
+            if (group.loads.size() < 2) continue;
+            for (const uint32_t load : group.loads)
+                parts.push_back(loads_[load].part);
+        }
+        std::ranges::sort(parts);
+        return parts;
     }
 
     void spread_out(Group& group) const {

@@ -19,8 +19,8 @@ constexpr double kOnePlaneShare = 0.02;  ///< … or may show through it …
 constexpr double kOutShare = 2.0;        ///< … and what is farther away is something else
 constexpr double kTurnShare = 2.0;       ///< times as much seen of its back as of its front
 constexpr double kLongFace = 2.0;        ///< limits: a longer face is asked at more points …
-constexpr double kVeryLongFace = 12.0;   ///< … and a very long one at very many
-constexpr int kPoints = 32, kManyPoints = 64;
+constexpr double kPointsPerArea = 8.0;  ///< … a limit long and a limit wide: what has little area says little
+constexpr double kFewestPoints = 4.0, kMostPoints = 64.0;
 
 glm::dvec3 light_of(const glm::u8vec4& colour) {
     const glm::dvec3 c(colour.x, colour.y, colour.z);
@@ -75,10 +75,11 @@ void samples_of(const lod::Triangle& t, const std::array<uint32_t, 4>& nearest, 
             out.push_back({points[i], nearest[i]});
         return;
     }
-    const int count = longest_m > kVeryLongFace * limit_m ? kManyPoints : kPoints;
-    for (int i = 0; i < count; ++i) {
-        // Evenly over a square, of which what is beyond the diagonal is turned back. Source: Roberts, The unreasonable
-        // effectiveness of quasirandom sequences (2018).
+    const double wanted = kPointsPerArea * lod::area_m2(t) / (limit_m * limit_m);
+    const int count = static_cast<int>(std::clamp(wanted, kFewestPoints, kMostPoints));
+    for (int i = 1; i <= count; ++i) {
+        // Evenly over a square, of which what is beyond the diagonal is turned back; not from 0, which lies on it and may be
+        // a neighbour's. Source: Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
         double whole = 0.0, along = std::modf(0.5 + 0.7548776662466927 * i, &whole),
                up = std::modf(0.5 + 0.5698402909980532 * i, &whole);
         if (along + up > 1.0) along = 1.0 - along, up = 1.0 - up;
@@ -155,7 +156,7 @@ void recolour(const FaceSoup& source, const lod::TriangleTree& source_tree, cons
         const glm::dvec3 area = whole / static_cast<double>(samples.size()), out = (limit_m / size) * whole;
         for (const auto& [point, near] : samples) {
             add(near, area, light, &Mixtures::all, &Mixtures::all);
-            if (is_met(source_tree.first_on_way(point + kOffShare * out, point + kOutShare * out))) continue;
+            if (source_tree.is_on_way(point + kOffShare * out, point + kOutShare * out)) continue;
             const lod::TriangleHit first = result_tree.first_on_way(point + out, point - out);
             add(first.triangle, area, light, &Mixtures::seen, &Mixtures::seen_behind);
             if (!is_met(first)) continue;

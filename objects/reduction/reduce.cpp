@@ -24,16 +24,11 @@ constexpr double kCoverShare = 0.4;        ///< … faces nearer than that to la
 constexpr double kSecondCoverShare = 0.1;  ///< … once parts have grown together
 constexpr double kReachShare = 0.8;        ///< … how near to each other points of different parts join
 constexpr double kToleranceShare = 0.6;  ///< … what contraction may guess; the rest is for what it overlooks
+constexpr double kGrownShare =
+    0.5;  ///< of stand-ins' faces; what has grown together so far has no gaps to be gathered across …
+constexpr double kMissingShare = 0.25;  ///< … unless so many of the source's faces are not near it
 /// Of every proof.
 constexpr lod::PieceSearch kSearch{.most_pieces = 4096, .smallest_share = 1.0 / 32};
-
-/// What a proposal fails to keep.
-struct Failures {
-    std::vector<uint32_t> of_source;  ///< source faces that are not near the proposal
-    std::vector<uint32_t> of_result;  ///< proposed faces that are not near the source
-
-    size_t size() const { return of_source.size() + of_result.size(); }
-};
 
 FaceSoup choose_faces(const FaceSoup& soup, const std::vector<uint8_t>& is_chosen) {
     FaceSoup chosen;
@@ -46,12 +41,16 @@ FaceSoup choose_faces(const FaceSoup& soup, const std::vector<uint8_t>& is_chose
     return chosen;
 }
 
-Failures find_failures(const FaceSoup& source, const lod::TriangleTree& source_tree, const FaceSoup& result,
-                       double limit_m) {
-    Failures failures;
-    lod::find_beyond(source.view(), lod::TriangleTree(result.view()), limit_m, failures.of_source, kSearch);
-    lod::find_beyond(result.view(), source_tree, limit_m, failures.of_result, kSearch);
-    return failures;
+/// @param missing  out: faces of the source that are not near to what is left of the result
+void take_out_wrong(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
+                    std::vector<uint32_t>& missing, FaceSoup& result) {
+    std::vector<uint32_t> wrong;
+    lod::find_beyond(result.view(), source_tree, limit_m, wrong, kSearch);
+    std::vector<uint8_t> is_right(result.faces.size(), 1);
+    for (const uint32_t face : wrong)
+        is_right[face] = 0;
+    if (!wrong.empty()) result = choose_faces(result, is_right);
+    lod::find_beyond(source.view(), lod::TriangleTree(result.view()), limit_m, missing, kSearch);
 }
 
 /// Grows parts together first, so that what was a border is none any more when edges are judged.
@@ -65,29 +64,35 @@ FaceSoup propose(const FaceSoup& welded, double limit_m) {
     return contract(large_cover(grown, kSecondCoverShare * limit_m), tolerance_m, {});
 }
 
+std::vector<uint8_t> all_of(const StandIns& parts) {
+    return std::vector<uint8_t>(parts.part_count(), 1);
+}
+
 /// Takes out what is wrong, then puts in what is missing: the stand-ins of parts, or of the source's own faces some, large
 /// ones first.
-void mend(const FaceSoup& source, const StandIns& parts, const Failures& failures, double limit_m,
+void mend(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m, StandIns& parts,
           FaceSoup& result) {
-    std::vector<uint8_t> is_good(result.faces.size(), 1);
-    for (uint32_t face : failures.of_result)
-        is_good[face] = 0;
-    result = choose_faces(result, is_good);
-    std::vector<uint32_t> missing = failures.of_source;
-    if (!failures.of_result.empty()) {
-        missing.clear();
-        lod::find_beyond(source.view(), lod::TriangleTree(result.view()), limit_m, missing, kSearch);
+    std::vector<uint32_t> missing;
+    take_out_wrong(source, source_tree, limit_m, missing, result);
+    if (missing.empty()) return;
+    std::vector<uint8_t> is_missing(parts.part_count(), 0);
+    for (const uint32_t face : missing)
+        is_missing[parts.part_of_source[face]] = 1;
+    if (!parts.are_gathered) {
+        const bool has_failed =
+            static_cast<double>(missing.size()) > kMissingShare * static_cast<double>(source.faces.size());
+        gather_stand_ins(source, source_tree, limit_m, has_failed ? all_of(parts) : is_missing, parts);
     }
     std::vector<uint8_t> is_wanted(parts.soup.faces.size(), 0);
+    for (uint32_t part = 0; part < parts.part_count(); ++part) {
+        if (is_missing[part] == 0 || parts.is_replaced[part] == 0) continue;
+        for (const uint32_t wanted : parts.faces_of_part[part])
+            is_wanted[wanted] = 1;
+    }
     FaceSoup patch;
     patch.points = source.points;
-    for (uint32_t face : missing) {
-        const uint32_t part = parts.part_of_source[face];
-        if (parts.is_replaced[part] != 0) {
-            for (const uint32_t wanted : parts.faces_of_part[part])
-                is_wanted[wanted] = 1;
-            continue;
-        }
+    for (const uint32_t face : missing) {
+        if (parts.is_replaced[parts.part_of_source[face]] != 0) continue;
         patch.faces.push_back(source.faces[face]);
         patch.colours.push_back(source.colours[face]);
     }
@@ -115,15 +120,19 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
     CHECK(limit_m > 0.0);
     if (source.faces.empty()) return {};
     const lod::TriangleTree source_tree(source.view());
-    const StandIns parts = stand_ins(source, source_tree, limit_m, kWeldShare * limit_m);
+    StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m);
     const FaceSoup welded = weld(parts.to_grow, kWeldShare * limit_m).soup;
     if (welded.faces.empty()) return source;  // smaller than a cell
-    FaceSoup result = parts.soup;
+    FaceSoup result;
     // A single part with a stand-in has nothing to grow together with.
     if (parts.part_count() > 1 || parts.is_replaced[0] == 0) {
         result = propose(welded, limit_m);
-        const Failures failures = find_failures(source, source_tree, result, limit_m);
-        if (failures.size() > 0) mend(source, parts, failures, limit_m, result);
+        const double grown = static_cast<double>(result.faces.size());
+        if (grown > kGrownShare * static_cast<double>(parts.soup.faces.size()))
+            gather_stand_ins(source, source_tree, limit_m, all_of(parts), parts);
+        if (result.faces.size() < parts.soup.faces.size()) mend(source, source_tree, limit_m, parts, result);
+    } else {
+        result = parts.soup;
     }
     const bool are_parts = parts.soup.faces.size() <= result.faces.size();
     if (are_parts) result = parts.soup;

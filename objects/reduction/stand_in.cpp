@@ -115,30 +115,30 @@ void settle_look(const FaceSoup& part, const lod::TriangleTree& tree, double lim
 }
 
 /// Faces that were gathered, and the stand-ins of parts of which none was: these are better by themselves, may be cards.
-/// @param least  [parts] their stand-ins, or what they are
-void put_together(const std::vector<Gathered>& gathered, const std::vector<uint32_t>& part_of_load,
-                  const std::vector<FaceSoup>& least, StandIns& out) {
-    std::vector<uint8_t> is_gathered(least.size(), 0);
+void put_together(const std::vector<Gathered>& gathered, StandIns& parts) {
+    std::vector<uint8_t> is_gathered(parts.part_count(), 0);
     for (const Gathered& group : gathered) {
         for (const uint32_t load : group.loads) {
-            if (group.loads.size() > 1) is_gathered[part_of_load[load]] = 1;
+            if (group.loads.size() > 1) is_gathered[parts.to_gather[load].part] = 1;
         }
     }
-    out.faces_of_part.resize(least.size());
+    parts.soup = {};
+    parts.faces_of_part.assign(parts.part_count(), {});
     for (const Gathered& group : gathered) {
-        if (is_gathered[part_of_load[group.loads[0]]] == 0) continue;
-        const uint32_t corner = static_cast<uint32_t>(out.soup.points.size());
-        out.soup.points.insert(out.soup.points.end(), {group.face.a, group.face.b, group.face.c});
+        if (is_gathered[parts.to_gather[group.loads[0]].part] == 0) continue;
+        const uint32_t corner = static_cast<uint32_t>(parts.soup.points.size());
+        parts.soup.points.insert(parts.soup.points.end(), {group.face.a, group.face.b, group.face.c});
         for (const uint32_t load : group.loads)
-            out.faces_of_part[part_of_load[load]].push_back(static_cast<uint32_t>(out.soup.faces.size()));
-        out.soup.faces.push_back({corner, corner + 1, corner + 2});
-        out.soup.colours.push_back(group.colour);
+            parts.faces_of_part[parts.to_gather[load].part].push_back(
+                static_cast<uint32_t>(parts.soup.faces.size()));
+        parts.soup.faces.push_back({corner, corner + 1, corner + 2});
+        parts.soup.colours.push_back(group.colour);
     }
-    for (uint32_t part = 0; part < least.size(); ++part) {
+    for (uint32_t part = 0; part < parts.part_count(); ++part) {
         if (is_gathered[part] != 0) continue;
-        for (size_t i = 0; i < least[part].faces.size(); ++i)
-            out.faces_of_part[part].push_back(static_cast<uint32_t>(out.soup.faces.size() + i));
-        append_soup(least[part], glm::dmat3(1.0), glm::dvec3(0.0), out.soup);
+        for (size_t i = 0; i < parts.of_part[part].faces.size(); ++i)
+            parts.faces_of_part[part].push_back(static_cast<uint32_t>(parts.soup.faces.size() + i));
+        append_soup(parts.of_part[part], glm::dmat3(1.0), glm::dvec3(0.0), parts.soup);
     }
 }
 
@@ -180,16 +180,12 @@ StandIn stand_in(const FaceSoup& part, double limit_m) {
     return found;
 }
 
-StandIns stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                   double cell_m) {
+StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m) {
     StandIns out;
     out.part_of_source.resize(source.faces.size());
     const WeldedSoup welded = weld(source, cell_m);
-    std::vector<FaceLoad> loads;
-    std::vector<uint32_t> part_of_load;
-    std::vector<FaceSoup> least;
     for (const auto& faces : parts_of(source, welded.point_of, welded.soup.points.size())) {
-        const uint32_t number = static_cast<uint32_t>(least.size());
+        const uint32_t number = static_cast<uint32_t>(out.of_part.size());
         for (const uint32_t face : faces)
             out.part_of_source[face] = number;
         FaceSoup part = part_of(source, faces);
@@ -199,16 +195,23 @@ StandIns stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree,
         if (is_found && !found.to_gather.faces.empty()) {
             for (FaceLoad& load : share_out(part, found.to_gather, limit_m)) {
                 if (load.corners.empty()) continue;
-                loads.push_back(std::move(load));
-                part_of_load.push_back(number);
+                load.part = number;
+                out.to_gather.push_back(std::move(load));
             }
         }
         append_soup(is_found && !found.is_card ? found.soup : part, glm::dmat3(1.0), glm::dvec3(0.0),
                     out.to_grow);
-        least.push_back(is_found ? std::move(found.soup) : std::move(part));
+        out.of_part.push_back(is_found ? std::move(found.soup) : std::move(part));
     }
-    put_together(gather(source, source_tree, limit_m, loads), part_of_load, least, out);
+    put_together({}, out);
     return out;
+}
+
+void gather_stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
+                      std::span<const uint8_t> is_wanted, StandIns& parts) {
+    std::erase_if(parts.to_gather, [&](const FaceLoad& load) { return is_wanted[load.part] == 0; });
+    put_together(gather(source, source_tree, limit_m, parts.to_gather), parts);
+    parts.are_gathered = true;
 }
 
 }  // namespace objects

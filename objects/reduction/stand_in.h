@@ -15,9 +15,11 @@
 // so they show from above, too. Faces that share no corners are gathered with their neighbours' (gather.h).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "lod/surface/triangle_tree.h"
+#include "objects/reduction/face_loads.h"
 #include "objects/reduction/face_soup.h"
 
 namespace objects {
@@ -35,8 +37,7 @@ struct StandIn {
 /// Cost: O(n log n), 1 to 10 us a face. Deterministic.
 StandIn stand_in(const FaceSoup& part, double limit_m);
 
-/// Every part of a soup by its stand-in where there is one, else as it is; neighbours by one for all of them where that
-/// will do.
+/// Every part of a soup by its stand-in where there is one, else as it is.
 struct StandIns {
     FaceSoup soup;
     FaceSoup to_grow;  ///< the same, but slender parts as they are: what grows together best
@@ -44,13 +45,21 @@ struct StandIns {
     std::vector<std::vector<uint32_t>>
         faces_of_part;                 ///< [parts] of `soup`; gathered ones are several parts'
     std::vector<uint8_t> is_replaced;  ///< [parts]
+    std::vector<FaceSoup> of_part;     ///< [parts] before any are gathered
+    std::vector<FaceLoad> to_gather;   ///< by itself each would do
+    bool are_gathered = false;         ///< those of them that were to be
 
     size_t part_count() const { return is_replaced.size(); }
 };
 
+/// @param cell_m  > 0; points that near to each other hold a part together
+StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m);
+
+/// Neighbours' stand-ins become one for all of them where that will do.
 /// @param source_tree  of the source
-/// @param cell_m       > 0; points that near to each other hold a part together
-StandIns stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                   double cell_m);
+/// @param is_wanted    [parts] 0: it stays as it is
+/// @param parts        of it, none gathered yet; in and out: `soup` and `faces_of_part` change
+void gather_stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
+                      std::span<const uint8_t> is_wanted, StandIns& parts);
 
 }  // namespace objects
