@@ -8,8 +8,8 @@
 #include "lod/base/check.h"
 #include "lod/base/hash.h"
 #include "lod/base/parallel.h"
-#include "objects/clustering/for_each_item.h"
 #include "objects/clustering/stays.h"
+#include "objects/for_each_item.h"
 #include "objects/reduction/fat_faces.h"
 #include "objects/reduction/finish.h"
 #include "objects/reduction/reduce.h"
@@ -210,12 +210,13 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
     const double limit_m = draft.at(level).error_m;
     const double most_share = std::pow(kWorthwhileShare, 1.0 / draft.options.levels_per_doubling);
     std::vector<MeshRung> made(missing.size());
+    const unsigned threads = threads_within(missing.size(), draft.options.threads);
     for_each_item(missing.size(), draft.options.threads, [&](size_t i) {
         const DraftMesh& mesh = draft.meshes[missing[i]];
         made[i].level = level;
         made[i].error_m = limit_m;
         if (mesh.soup.faces.size() >= kFewestFaces && limit_m > 0.0)
-            made[i].soup = reduce_within(mesh.soup, limit_m);
+            made[i].soup = reduce_within(mesh.soup, limit_m, threads);
     });
     for (size_t i = 0; i < missing.size(); ++i) {
         DraftMesh& mesh = draft.meshes[missing[i]];

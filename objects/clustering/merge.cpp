@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lod/base/check.h"
-#include "objects/clustering/for_each_item.h"
+#include "objects/for_each_item.h"
 #include "objects/reduction/reduce.h"
 
 namespace objects {
@@ -125,7 +125,8 @@ void drop_spent_soups(Draft& draft, const DraftCluster& cluster) {
 }
 
 /// Geometry: what stands for the children at this level, joined and reduced around the box's middle.
-void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uint32_t level, Merged& out) {
+void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uint32_t level, unsigned threads,
+                     Merged& out) {
     const glm::dvec3 middle = 0.5 * (out.cluster.box_min + out.cluster.box_max);
     std::vector<Source> sources;
     gather_sources(draft, children, level, {.cluster = kNone, .place = {.offset = -middle}}, sources);
@@ -142,7 +143,7 @@ void settle_geometry(const Draft& draft, std::span<const uint32_t> children, uin
         child_error_m = std::max(child_error_m, draft.clusters[child].error_m);
     const double limit_m = draft.at(level).error_m - error_m;
     FaceSoup reduced;
-    if (limit_m > kLeastShare * draft.at(level).error_m) reduced = reduce_within(joined, limit_m);
+    if (limit_m > kLeastShare * draft.at(level).error_m) reduced = reduce_within(joined, limit_m, threads);
     const bool is_reduced = !reduced.faces.empty() && reduced.faces.size() < joined.faces.size();
     const FaceSoup& kept = is_reduced ? reduced : joined;
     out.soup.points.reserve(kept.points.size());
@@ -186,6 +187,7 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
         const auto some = std::span(groups).subspan(begin, std::min(kGroupsAtOnce, groups.size() - begin));
         std::vector<Merged> merged(some.size());
         std::vector<std::vector<uint32_t>> let_go(some.size());
+        const unsigned threads = threads_within(some.size(), draft.options.threads);
         for_each_item(some.size(), draft.options.threads, [&](size_t i) {
             std::vector<uint32_t> children = some[i];
             settle_time(draft, draft.at(level).gamma, children, merged[i], let_go[i]);
@@ -197,7 +199,7 @@ std::vector<uint32_t> merge_groups(Draft& draft, const std::vector<std::vector<u
             cluster.children = children;
             if (children.size() < 2) return;
             settle_box(draft, children, cluster);
-            settle_geometry(draft, children, level, merged[i]);
+            settle_geometry(draft, children, level, threads, merged[i]);
         });
         for (size_t i = 0; i < some.size(); ++i) {
             draft.counts.add(merged[i].counts);
@@ -225,12 +227,18 @@ std::vector<uint32_t> reduce_alone(Draft& draft, std::span<const uint32_t> alone
     make_rungs(draft, meshes, level);
     const double most_share = std::pow(kWorthwhileShare, 1.0 / draft.options.levels_per_doubling);
     std::vector<Merged> merged(alone.size());
-    for_each_item(alone.size(), draft.options.threads, [&](size_t i) {
+    std::vector<size_t> to_reduce;
+    for (size_t i = 0; i < alone.size(); ++i) {
         const DraftCluster& child = draft.clusters[alone[i]];
-        if (child.mesh != kNone || draft.soups[child.soup].faces.size() < kFewestFacesAlone) return;
-        if (is_too_large(draft, child, level)) return;
-        merged[i].cluster = child;
-        settle_geometry(draft, {&alone[i], 1}, level, merged[i]);
+        if (child.mesh == kNone && draft.soups[child.soup].faces.size() >= kFewestFacesAlone &&
+            !is_too_large(draft, child, level))
+            to_reduce.push_back(i);
+    }
+    const unsigned threads = threads_within(to_reduce.size(), draft.options.threads);
+    for_each_item(to_reduce.size(), draft.options.threads, [&](size_t k) {
+        const size_t i = to_reduce[k];
+        merged[i].cluster = draft.clusters[alone[i]];
+        settle_geometry(draft, {&alone[i], 1}, level, threads, merged[i]);
     });
     for (size_t i = 0; i < alone.size(); ++i) {
         draft.counts.add(merged[i].counts);

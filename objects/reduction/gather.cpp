@@ -11,6 +11,7 @@
 
 #include "lod/surface/surface_distance.h"
 #include "objects/alive_tree.h"
+#include "objects/for_each_item.h"
 #include "objects/reduction/extremes.h"
 #include "objects/reduction/fit.h"
 #include "objects/reduction/joint_face.h"
@@ -98,14 +99,18 @@ class Gathering {
         }
     }
 
-    std::vector<Gathered> result() {
-        std::vector<Gathered> all;
+    std::vector<Gathered> result(unsigned threads) {
         const std::vector<uint32_t> parts = shared_parts();
-        for (Group& group : groups_) {
-            if (group.went_to != kNone) continue;
-            if (std::ranges::binary_search(parts, loads_[group.loads[0]].part)) spread_out(group);
-            all.push_back(finished(group));
+        std::vector<uint32_t> left;
+        for (uint32_t i = 0; i < groups_.size(); ++i) {
+            if (groups_[i].went_to == kNone) left.push_back(i);
         }
+        std::vector<Gathered> all(left.size());
+        for_each_item(left.size(), threads, [&](size_t i) {
+            Group& group = groups_[left[i]];
+            if (std::ranges::binary_search(parts, loads_[group.loads[0]].part)) spread_out(group);
+            all[i] = finished(group);
+        });
         return all;
     }
 
@@ -318,11 +323,11 @@ class Gathering {
 }  // namespace
 
 std::vector<Gathered> gather(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                             std::span<const FaceLoad> loads) {
+                             std::span<const FaceLoad> loads, unsigned threads) {
     Gathering gathering(source, source_tree, limit_m, loads);
     gathering.join_pairs();
     gathering.dissolve_small();
-    return gathering.result();
+    return gathering.result(threads);
 }
 
 }  // namespace objects

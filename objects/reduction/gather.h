@@ -26,9 +26,10 @@ struct Gathered {
 /// @param source_tree  of it: faces may be near to any of it
 /// @param limit_m      > 0
 /// @param loads        with corners; each face is proved to be within `limit_m` of the source, and its load of it
+/// @param threads      at least 1; the result is the same for any
 /// @returns            faces of which the same is true, no more of them; every load is one's
-/// Cost: about 1 ms a load where neighbours are half as far apart as the limit is, less elsewhere. Deterministic.
+/// Cost: some 0.2 ms a load where neighbours are half as far apart as the limit is, less elsewhere. Deterministic.
 std::vector<Gathered> gather(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                             std::span<const FaceLoad> loads);
+                             std::span<const FaceLoad> loads, unsigned threads = 1);
 
 }  // namespace objects

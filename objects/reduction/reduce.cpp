@@ -70,8 +70,8 @@ std::vector<uint8_t> all_of(const StandIns& parts) {
 
 /// Takes out what is wrong, then puts in what is missing: the stand-ins of parts, or of the source's own faces some, large
 /// ones first.
-void mend(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m, StandIns& parts,
-          FaceSoup& result) {
+void mend(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m, unsigned threads,
+          StandIns& parts, FaceSoup& result) {
     std::vector<uint32_t> missing;
     take_out_wrong(source, source_tree, limit_m, missing, result);
     if (missing.empty()) return;
@@ -81,7 +81,8 @@ void mend(const FaceSoup& source, const lod::TriangleTree& source_tree, double l
     if (!parts.are_gathered) {
         const bool has_failed =
             static_cast<double>(missing.size()) > kMissingShare * static_cast<double>(source.faces.size());
-        gather_stand_ins(source, source_tree, limit_m, has_failed ? all_of(parts) : is_missing, parts);
+        gather_stand_ins(source, source_tree, limit_m, has_failed ? all_of(parts) : is_missing, threads,
+                         parts);
     }
     std::vector<uint8_t> is_wanted(parts.soup.faces.size(), 0);
     for (uint32_t part = 0; part < parts.part_count(); ++part) {
@@ -116,11 +117,11 @@ bool are_of_one_colour(const FaceSoup& source, const StandIns& parts) {
 
 }  // namespace
 
-FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
+FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads) {
     CHECK(limit_m > 0.0);
     if (source.faces.empty()) return {};
     const lod::TriangleTree source_tree(source.view());
-    StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m);
+    StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m, threads);
     const FaceSoup welded = weld(parts.to_grow, kWeldShare * limit_m).soup;
     if (welded.faces.empty()) return source;  // smaller than a cell
     FaceSoup result;
@@ -129,8 +130,9 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m) {
         result = propose(welded, limit_m);
         const double grown = static_cast<double>(result.faces.size());
         if (grown > kGrownShare * static_cast<double>(parts.soup.faces.size()))
-            gather_stand_ins(source, source_tree, limit_m, all_of(parts), parts);
-        if (result.faces.size() < parts.soup.faces.size()) mend(source, source_tree, limit_m, parts, result);
+            gather_stand_ins(source, source_tree, limit_m, all_of(parts), threads, parts);
+        if (result.faces.size() < parts.soup.faces.size())
+            mend(source, source_tree, limit_m, threads, parts, result);
     } else {
         result = parts.soup;
     }

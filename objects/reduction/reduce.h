@@ -13,7 +13,8 @@ namespace objects {
 /// @param limit_m  > 0
 /// @returns        a soup whose Hausdorff distance to `source` is proved to be at most `limit_m`, with fewer faces;
 ///                 or the source itself. No face only if the source has none
+/// @param threads  at least 1; the result is the same for any
 /// Cost: O(n log n); 5 to 20 us a face. Deterministic.
-FaceSoup reduce_within(const FaceSoup& source, double limit_m);
+FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads = 1);
 
 }  // namespace objects

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lod/surface/surface_distance.h"
+#include "objects/for_each_item.h"
 #include "objects/reduction/fit.h"
 #include "objects/reduction/gather.h"
 #include "objects/reduction/part_shapes.h"
@@ -180,37 +181,44 @@ StandIn stand_in(const FaceSoup& part, double limit_m) {
     return found;
 }
 
-StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m) {
+StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m, unsigned threads) {
     StandIns out;
     out.part_of_source.resize(source.faces.size());
     const WeldedSoup welded = weld(source, cell_m);
-    for (const auto& faces : parts_of(source, welded.point_of, welded.soup.points.size())) {
-        const uint32_t number = static_cast<uint32_t>(out.of_part.size());
-        for (const uint32_t face : faces)
-            out.part_of_source[face] = number;
-        FaceSoup part = part_of(source, faces);
-        StandIn found = stand_in(part, limit_m);
-        const bool is_found = !found.soup.faces.empty();
+    const std::vector<std::vector<uint32_t>> parts =
+        parts_of(source, welded.point_of, welded.soup.points.size());
+    out.of_part.resize(parts.size());
+    std::vector<StandIn> found(parts.size());
+    std::vector<std::vector<FaceLoad>> loads(parts.size());
+    for_each_item(parts.size(), threads, [&](size_t i) {
+        out.of_part[i] = part_of(source, parts[i]);
+        found[i] = stand_in(out.of_part[i], limit_m);
+        if (!found[i].to_gather.faces.empty())
+            loads[i] = share_out(out.of_part[i], found[i].to_gather, limit_m);
+    });
+    for (uint32_t i = 0; i < parts.size(); ++i) {
+        for (const uint32_t face : parts[i])
+            out.part_of_source[face] = i;
+        const bool is_found = !found[i].soup.faces.empty();
         out.is_replaced.push_back(is_found);
-        if (is_found && !found.to_gather.faces.empty()) {
-            for (FaceLoad& load : share_out(part, found.to_gather, limit_m)) {
-                if (load.corners.empty()) continue;
-                load.part = number;
-                out.to_gather.push_back(std::move(load));
-            }
+        append_soup(is_found && !found[i].is_card ? found[i].soup : out.of_part[i], glm::dmat3(1.0),
+                    glm::dvec3(0.0), out.to_grow);
+        if (!is_found) continue;
+        out.of_part[i] = std::move(found[i].soup);
+        for (FaceLoad& load : loads[i]) {
+            if (load.corners.empty()) continue;
+            load.part = i;
+            out.to_gather.push_back(std::move(load));
         }
-        append_soup(is_found && !found.is_card ? found.soup : part, glm::dmat3(1.0), glm::dvec3(0.0),
-                    out.to_grow);
-        out.of_part.push_back(is_found ? std::move(found.soup) : std::move(part));
     }
     put_together({}, out);
     return out;
 }
 
 void gather_stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                      std::span<const uint8_t> is_wanted, StandIns& parts) {
+                      std::span<const uint8_t> is_wanted, unsigned threads, StandIns& parts) {
     std::erase_if(parts.to_gather, [&](const FaceLoad& load) { return is_wanted[load.part] == 0; });
-    put_together(gather(source, source_tree, limit_m, parts.to_gather), parts);
+    put_together(gather(source, source_tree, limit_m, parts.to_gather, threads), parts);
     parts.are_gathered = true;
 }
 

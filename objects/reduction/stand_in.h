@@ -52,14 +52,15 @@ struct StandIns {
     size_t part_count() const { return is_replaced.size(); }
 };
 
-/// @param cell_m  > 0; points that near to each other hold a part together
-StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m);
+/// @param cell_m   > 0; points that near to each other hold a part together
+/// @param threads  at least 1; the result is the same for any
+StandIns stand_ins(const FaceSoup& source, double limit_m, double cell_m, unsigned threads);
 
 /// Neighbours' stand-ins become one for all of them where that will do.
 /// @param source_tree  of the source
 /// @param is_wanted    [parts] 0: it stays as it is
 /// @param parts        of it, none gathered yet; in and out: `soup` and `faces_of_part` change
 void gather_stand_ins(const FaceSoup& source, const lod::TriangleTree& source_tree, double limit_m,
-                      std::span<const uint8_t> is_wanted, StandIns& parts);
+                      std::span<const uint8_t> is_wanted, unsigned threads, StandIns& parts);
 
 }  // namespace objects

@@ -152,6 +152,7 @@ TEST(Surface, TheFirstOnAWayIsTheFirstOfAll) {
         }
         const lod::TriangleHit hit = tree.first_on_way(from, to);
         ASSERT_EQ(hit.triangle < faces.size(), std::isfinite(first_m)) << i;
+        ASSERT_EQ(tree.is_on_way(from, to), std::isfinite(first_m)) << i;
         if (!std::isfinite(first_m)) continue;
         EXPECT_NEAR(hit.distance_m, first_m, 1e-9) << i;
         ++met;

@@ -20,4 +20,10 @@ void for_each_item(size_t count, unsigned threads, const Body& body) {
     });
 }
 
+/// How many threads each of so few items may use for itself, when there are `threads` for all.
+inline unsigned threads_within(size_t items, unsigned threads) {
+    constexpr size_t kFewPerThread = 4;
+    return items < kFewPerThread * threads ? threads : 1;
+}
+
 }  // namespace objects
