@@ -138,7 +138,7 @@ FaceSoup corner_of_the_city(uint32_t side) {
 TEST(Gather, FacesATowerOfTheCity) {
     const FaceSoup city = objects::with_fat_faces(corner_of_the_city(16));
     const std::pair<double, double> within_m_at_most[] = {
-        {2.6, 2.62}, {3.7, 1.19}, {5.2, 0.44}, {8.8, 0.202}, {25.0, 0.02}};
+        {2.6, 2.62}, {3.7, 1.19}, {5.2, 0.44}, {8.8, 0.193}, {25.0, 0.013}};
     for (const auto& [limit_m, most] : within_m_at_most) {
         const FaceSoup reduced = objects::reduce_within(city, limit_m);
         const double faces = static_cast<double>(reduced.faces.size()) / 256.0;
