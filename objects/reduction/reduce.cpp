@@ -26,7 +26,7 @@ constexpr double kReachShare = 0.8;        ///< … how near to each other point
 constexpr double kToleranceShare = 0.6;  ///< … what contraction may guess; the rest is for what it overlooks
 constexpr double kGrownShare =
     0.5;  ///< of stand-ins' faces; what has grown together so far has no gaps to be gathered across …
-constexpr double kMissingShare = 0.05;  ///< … unless so many of the source's faces are not near it
+constexpr double kMissingShare = 0.25;  ///< … unless so many of the source's faces are not near it
 /// Of every proof.
 constexpr lod::PieceSearch kSearch{.most_pieces = 4096, .smallest_share = 1.0 / 32};
 
