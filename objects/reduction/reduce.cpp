@@ -124,20 +124,20 @@ FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads)
     StandIns parts = stand_ins(source, limit_m, kWeldShare * limit_m, threads);
     const FaceSoup welded = weld(parts.to_grow, kWeldShare * limit_m).soup;
     if (welded.faces.empty()) return source;  // smaller than a cell
-    FaceSoup result;
+    FaceSoup grown;
     // A single part with a stand-in has nothing to grow together with.
     if (parts.part_count() > 1 || parts.is_replaced[0] == 0) {
-        result = propose(welded, limit_m);
-        const double grown = static_cast<double>(result.faces.size());
-        if (grown > kGrownShare * static_cast<double>(parts.soup.faces.size()))
+        grown = propose(welded, limit_m);
+        if (static_cast<double>(grown.faces.size()) >
+            kGrownShare * static_cast<double>(parts.soup.faces.size()))
             gather_stand_ins(source, source_tree, limit_m, all_of(parts), threads, parts);
-        if (result.faces.size() < parts.soup.faces.size())
-            mend(source, source_tree, limit_m, threads, parts, result);
-    } else {
-        result = parts.soup;
+        if (grown.faces.size() < parts.soup.faces.size())
+            mend(source, source_tree, limit_m, threads, parts, grown);
+        else
+            grown = {};
     }
-    const bool are_parts = parts.soup.faces.size() <= result.faces.size();
-    if (are_parts) result = parts.soup;
+    const bool are_parts = grown.faces.empty() || parts.soup.faces.size() <= grown.faces.size();
+    FaceSoup result = are_parts ? parts.soup : std::move(grown);
     if (result.faces.size() >= source.faces.size()) return source;
     drop_unused_points(result);
     turn_open_parts_up(kWeldShare * limit_m, result);

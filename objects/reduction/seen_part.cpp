@@ -46,13 +46,18 @@ double short_side_m(const Outline& rectangle) {
     return std::min(glm::distance(rectangle[0], rectangle[1]), glm::distance(rectangle[1], rectangle[2]));
 }
 
-glm::dvec3 long_axis(std::span<const glm::dvec3> points) {
+glm::dmat3 spread_about_mean(std::span<const glm::dvec3> points) {
     glm::dvec3 middle(0.0);
     for (const glm::dvec3& point : points)
         middle += point / static_cast<double>(points.size());
     glm::dmat3 spread(0.0);
     for (const glm::dvec3& point : points)
         spread += glm::outerProduct(point - middle, point - middle);
+    return spread;
+}
+
+glm::dvec3 long_axis(std::span<const glm::dvec3> points) {
+    const glm::dmat3 spread = spread_about_mean(points);
     glm::dvec3 axis(spread[0][0] + 1e-12, spread[1][1] + 1e-12, spread[2][2] + 1e-12);
     for (int turn = 0; turn < kTurns; ++turn) {
         axis = spread * axis;

@@ -26,6 +26,9 @@ struct SeenPart {
 /// Cost: O(n log n).
 SeenPart see_along(std::span<const glm::dvec3> points, const glm::dvec3& axis);
 
+/// The sum over points, at least one, of the outer product of what they are off their mean by; m^2.
+glm::dmat3 spread_about_mean(std::span<const glm::dvec3> points);
+
 /// Along which points are spread most, of length 1; upwards where all are one. Source: the power method.
 glm::dvec3 long_axis(std::span<const glm::dvec3> points);
 

@@ -1,6 +1,6 @@
 #include "objects/reduction/width.h"
 
-#include <algorithm>
+#include "objects/reduction/seen_part.h"
 
 namespace objects {
 
@@ -11,14 +11,9 @@ constexpr double kFirstTurn = 0.25;  ///< radians, of the search from there …
 constexpr double kNextShare = 0.8;   ///< … each of the last
 constexpr int kSearches = 16;
 
-/// Across the plane that fits best.
+/// Across the plane that fits best. Source: inverse iteration, with a little of the identity for what is flat.
 glm::dvec3 short_axis(std::span<const glm::dvec3> points) {
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& point : points)
-        middle += point / static_cast<double>(points.size());
-    glm::dmat3 spread(0.0);
-    for (const glm::dvec3& point : points)
-        spread += glm::outerProduct(point - middle, point - middle);
+    const glm::dmat3 spread = spread_about_mean(points);
     const double size = spread[0][0] + spread[1][1] + spread[2][2];
     glm::dvec3 axis(0, 0, 1);
     if (!(size > 0.0)) return axis;

@@ -131,12 +131,15 @@ TEST(PictureColour, City) {
     expect_same_colours("city", bench::prism_city(900, 30), moments);
 }
 
-/// So far away that 2 px are 9 m, several towers share a face.
-TEST(PictureColour, CityFromAfar) {
+/// The last view is from so far away that 2 px are 9 m, and several towers share a face.
+TEST(PictureColour, LargerCity) {
     const Moment moments[] = {
+        {{-60.0, -60.0, 60.0}, {180.0, 180.0, 0.0}, 0.0, {{2.8, 0.48, 1.2, 4.3}, {4.1, 0.64, 1.8, 4.9}}},
+        {{500.0, 200.0, 120.0}, {180.0, 180.0, 0.0}, 0.0, {{2.6, 0.4, 1.4, 7.4}, {3.6, 0.57, 1.8, 7.2}}},
+        {{190.0, 200.0, 600.0}, {190.0, 190.0, 0.0}, 0.0, {{1.4, 0.16, 0.56, 1.4}, {4.1, 0.68, 1.9, 4.6}}},
         {{-480.0, -350.0, 330.0}, {250.0, 250.0, 0.0}, 0.0, {{4, 0.76, 1.6, 3.5}, {6.4, 0.99, 2.7, 6}}},
     };
-    expect_same_colours("far_city", bench::prism_city(1600, 40), moments);
+    expect_same_colours("larger_city", bench::prism_city(1600, 40), moments);
 }
 
 }  // namespace
