@@ -33,20 +33,22 @@ void place_ground(const Ground& ground, const glm::ivec2& sample, FrameBlock& bl
 
 }  // namespace
 
-FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, const Ground& ground) {
+FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, const Ground& ground,
+                          int guard_ratio) {
+    const double picture_share = 1.0 / guard_ratio;
     const lod::ViewMetric metric = lod::metric_of(view);
     const double extinction_per_m = -std::log2(kVisibleContrast) / std::max(atmosphere.visibility_m, 1.0);
     const double thinning_per_m = std::numbers::log2e / kHazeScaleHeight_m;
     const double eye_thinning = std::max(atmosphere.eye_height_m, 0.0) * thinning_per_m;
 
     FrameBlock block;
-    block.projection =
-        vec4_of({1.0 / metric.tan_x, 1.0 / metric.tan_y, metric.near_m}, 1.0 / metric.lambda_px);
+    block.projection = vec4_of({picture_share / metric.tan_x, picture_share / metric.tan_y, metric.near_m},
+                               1.0 / metric.lambda_px);
     block.ray =
         vec4_of({2.0 * metric.tan_x / view.width_px, 2.0 * metric.tan_y / view.height_px, -metric.tan_x},
                 -metric.tan_y);
     block.sun_eye = vec4_of(view.eye_from_world * atmosphere.sun_world, std::cos(kSunRadius_rad));
-    block.up_eye = vec4_of(view.eye_from_world * atmosphere.up_world, 0.0);
+    block.up_eye = vec4_of(view.eye_from_world * atmosphere.up_world, picture_share);
     block.haze = vec4_of({extinction_per_m, thinning_per_m, eye_thinning}, std::exp2(-eye_thinning));
     place_ground(ground, atmosphere.ground_sample, block);
     return block;

@@ -14,10 +14,11 @@ using Vec4 = std::array<float, 4>;
 
 /// 128 bytes. Directions in the eye frame, unit length.
 struct FrameBlock {
-    Vec4 projection{};    ///< 1/tan_x, 1/tan_y, near [m], metres per pixel at depth 1 (1/lambda)
-    Vec4 ray{};           ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
+    Vec4
+        projection{};  ///< xy: clip coordinates of a slope of 1; near [m]; metres per pixel at depth 1 (1/lambda)
+    Vec4 ray{};        ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
     Vec4 sun_eye{};       ///< w: cosine of the sun disc's radius
-    Vec4 up_eye{};        ///< w unused
+    Vec4 up_eye{};        ///< w: clip coordinate of the picture's right and upper edge
     Vec4 haze{};          ///< extinction at the datum [octaves/m], thinning with height [octaves/m], thinning
                           ///< from the datum to the eye [octaves], density at the eye relative to the datum
     Vec4 ground_tiles{};  ///< a sample's place in tiles of the ground's pattern is (sample - zw) * xy + …
@@ -36,6 +37,8 @@ struct Ground {
 
 /// Fills the block for one view. No state; the projection itself is z_clip = near, w_clip = depth, so that
 /// depth in the buffer is near/depth: 1 at the near plane, 0 at infinity.
-FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, const Ground& ground);
+/// @param guard_ratio  of the viewport (render/guard_band.h)
+FrameBlock frame_block_of(const lod::View& view, const Atmosphere& atmosphere, const Ground& ground,
+                          int guard_ratio);
 
 }  // namespace render

@@ -6,16 +6,15 @@ namespace render {
 
 namespace {
 
-/// One triangle that contains the picture; shaders/scene.vert takes x and y as clip coordinates.
-constexpr std::array<std::array<float, 2>, 3> kSkyCorners_clip{
-    {{-1.0f, -1.0f}, {3.0f, -1.0f}, {-1.0f, 3.0f}}};
+/// One triangle that contains the picture, -1 … 1.
+constexpr std::array<std::array<float, 2>, 3> kSkyCorners{{{-1.0f, -1.0f}, {3.0f, -1.0f}, {-1.0f, 3.0f}}};
 
 lod::DrawItem write_sky(GeometryPool& pool) {
     const size_t first_vertex = pool.vertices.size() - 3, first_index = pool.indices.size() - 3;
     std::array<lod::Vertex, 3> corners{};
     for (size_t i = 0; i < 3; ++i) {
-        corners[i].position_hi[0] = kSkyCorners_clip[i][0];
-        corners[i].position_hi[1] = kSkyCorners_clip[i][1];
+        corners[i].position_hi[0] = kSkyCorners[i][0];
+        corners[i].position_hi[1] = kSkyCorners[i][1];
         corners[i].colour[3] = static_cast<uint8_t>(lod::Material::kSky);
     }
     pool.vertices.write(first_vertex, corners);

@@ -9,6 +9,7 @@
 #include "render/freed_memory.h"
 #include "render/geometry_pool.h"
 #include "render/ground_texture.h"
+#include "render/guard_band.h"
 #include "render/indirect_pass.h"
 #include "render/pattern_texture.h"
 #include "render/target.h"
@@ -21,6 +22,7 @@ struct Renderer::State {
     std::optional<EglContext> egl;  ///< one of these two has the context
     std::optional<Window> window;
     Target target;
+    int guard_ratio = 1;
     GeometryPool pool;
     PoolCapacity pool_capacity;
     IndirectPass pass;
@@ -97,6 +99,7 @@ lod::Result<Renderer> Renderer::create(const RendererOptions& options) {
     auto target = make_target(options.width_px, options.height_px);
     if (!target) return target.error();
     state->target = std::move(*target);
+    state->guard_ratio = guard_ratio(options.width_px, options.height_px);
     auto pool = make_geometry_pool(options.pool);
     if (!pool) return pool.error();
     state->pool = std::move(*pool);
@@ -175,13 +178,13 @@ void Renderer::draw(const lod::View& view, const lod::DrawList& list, const Atmo
         CHECK(bool(grown));
         state.allocations_since_draw += 2;
     }
-    const FrameBlock frame = frame_block_of(view, atmosphere, state.ground);
+    const FrameBlock frame = frame_block_of(view, atmosphere, state.ground, state.guard_ratio);
     uint64_t upload_bytes = place_writes(list, state.pool);
     upload_bytes += upload_frame(list, state.pool, frame, atmosphere.draw_sky, state.pass);
 
     clear(state.target, atmosphere.clear_colour);
     glBindFramebuffer(GL_FRAMEBUFFER, state.target.framebuffer.id());
-    glViewport(0, 0, state.target.width_px, state.target.height_px);
+    set_viewport(state.target.width_px, state.target.height_px, state.guard_ratio);
     const bool has_air = atmosphere.draw_sky || std::isfinite(atmosphere.visibility_m);
     submit(state.pool, state.textures, {state.has_textures, has_air}, state.pass);
     state.in_flight.place();

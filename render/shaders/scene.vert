@@ -141,7 +141,7 @@ float mean_haze(vec3 position_eye) {
 void main() {
     uint material = colour_material.a;
     if (material == kSky) {
-        gl_Position = vec4(position_hi.xy, 0.0, 1.0);
+        gl_Position = vec4(position_hi.xy * up_eye.w, 0.0, 1.0);
         v_colour = vec4(0.0, 0.0, 0.0, 1.0);
         v_place_haze = vec3(0.0, 0.0, 1e3);  // nothing but air
         v_pattern = vec4(0.0, 0.0, kPlain, 1.0);

@@ -36,17 +36,17 @@ double plane_depth_m(const lod::View& view, const std::array<glm::dvec3, 3>& wor
     return glm::dot(normal, a) / glm::dot(normal, ray);
 }
 
-TEST_F(RendererTest, TrianglesLandWhereDoublePrecisionPutsThem) {
-    RENDERER_OR_SKIP(renderer, 320, 200);
+void expect_triangles_land_where_double_precision_puts_them(int width_px, int height_px, int rounds,
+                                                            render::Renderer& renderer) {
     lod::Rng rng(11);
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         const auto random = [&rng](double reach) {
             return glm::dvec3(rng.between(-reach, reach), rng.between(-reach, reach),
                               rng.between(-reach, reach));
         };
         const glm::dvec3 centre = random(1e6);
         const lod::View view =
-            lod::look_at(centre + random(300.0), centre, {0, 0, 1}, view_of_size(320, 200));
+            lod::look_at(centre + random(300.0), centre, {0, 0, 1}, view_of_size(width_px, height_px));
         const std::array<glm::dvec3, 3> world{centre + random(60.0), centre + random(60.0),
                                               centre + random(60.0)};
         Scene scene;
@@ -58,8 +58,8 @@ TEST_F(RendererTest, TrianglesLandWhereDoublePrecisionPutsThem) {
         const std::array<glm::dvec3, 3> on_picture{project(view, world[0]), project(view, world[1]),
                                                    project(view, world[2])};
         if (std::min({on_picture[0].z, on_picture[1].z, on_picture[2].z}) < view.near_m) continue;
-        for (int y = 0; y < 200; ++y) {
-            for (int x = 0; x < 320; ++x) {
+        for (int y = 0; y < height_px; ++y) {
+            for (int x = 0; x < width_px; ++x) {
                 const double inside = depth_inside_px(on_picture, x + 0.5, y + 0.5);
                 if (std::abs(inside) < 0.05) continue;
                 ASSERT_EQ(pixel(colour, x, y), inside > 0 ? 0x0ac81eu : 0xff00ffu)
@@ -70,6 +70,35 @@ TEST_F(RendererTest, TrianglesLandWhereDoublePrecisionPutsThem) {
             }
         }
     }
+}
+
+TEST_F(RendererTest, TrianglesLandWhereDoublePrecisionPutsThem) {
+    RENDERER_OR_SKIP(renderer, 320, 200);
+    expect_triangles_land_where_double_precision_puts_them(320, 200, 20, renderer);
+}
+
+void expect_the_sky_from_edge_to_edge(int width_px, int height_px, render::Renderer& renderer) {
+    Scene nothing;
+    render::Atmosphere air = vacuum();
+    air.draw_sky = true;
+    draw(view_of_size(width_px, height_px), air, nothing, renderer);
+    const auto sky = renderer.read_colour();
+    for (const int x : {0, width_px / 2, width_px - 1})
+        EXPECT_NE(pixel(sky, x, height_px / 2), 0xff00ffu) << "no sky at " << x << " of " << width_px;
+}
+
+// Where viewports may have 16,384 px, as on Mesa's rasteriser, half of the usual guard band fits around this picture.
+TEST_F(RendererTest, WidePicturesHaveNarrowerGuardBands) {
+    RENDERER_OR_SKIP(renderer, 6001, 9);
+    expect_triangles_land_where_double_precision_puts_them(6001, 9, 12, renderer);
+    expect_the_sky_from_edge_to_edge(6001, 9, renderer);
+}
+
+// And none around this one.
+TEST_F(RendererTest, TheWidestPicturesHaveNoGuardBand) {
+    RENDERER_OR_SKIP(renderer, 12000, 9);
+    expect_triangles_land_where_double_precision_puts_them(12000, 9, 12, renderer);
+    expect_the_sky_from_edge_to_edge(12000, 9, renderer);
 }
 
 TEST_F(RendererTest, NothingDrawnIsMagentaAndInfinitelyFar) {
