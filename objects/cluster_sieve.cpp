@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lod/base/parallel.h"
+#include "objects/for_each_item.h"
 
 namespace objects {
 
@@ -133,11 +133,7 @@ void ClusterSieve::replace_items(const Scene& scene, lod::DrawList& out) {
 uint64_t ClusterSieve::finish(const Scene& scene, unsigned threads, lod::DrawList& out) {
     if (!pieces_.empty()) {
         shows_.assign(pieces_.back().end_triangle, 0);
-        if (asked_ > 0)
-            lod::parallel_for(kStrips, threads, [&](size_t begin, size_t end) {
-                for (size_t strip = begin; strip < end; ++strip)
-                    judge(scene, out, strip);
-            });
+        if (asked_ > 0) for_each_item(kStrips, threads, [&](size_t strip) { judge(scene, out, strip); });
         replace_items(scene, out);
     }
     learn();
