@@ -18,8 +18,7 @@ namespace objects {
 
 namespace {
 
-constexpr uint32_t kManyLeaves = 8;  ///< of a mesh, which is reduced thoroughly then
-constexpr size_t kFewestFaces = 4;   ///< meshes with fewer are not reduced by themselves
+constexpr size_t kFewestFaces = 4;  ///< meshes with fewer are not reduced by themselves
 constexpr double kWorthwhileShare =
     0.49;  ///< a rung has at most so many of the faces of one with half the error
 
@@ -169,7 +168,6 @@ void make_leaves(Draft& draft) {
             leaf.object = i;
             leaf.mesh = object.mesh;
             leaf.geometry = draft.meshes[leaf.mesh].geometry;
-            ++draft.meshes[leaf.mesh].leaf_count;
             leaf.motion_class = stay.motion_class;
             leaf.is_turning = stay.is_turning;
             leaf.visibility = distinct.visibility(stay.visibility);
@@ -218,8 +216,7 @@ void make_rungs(Draft& draft, std::span<const uint32_t> meshes, uint32_t level) 
         made[i].level = level;
         made[i].error_m = limit_m;
         if (mesh.soup.faces.size() >= kFewestFaces && limit_m > 0.0)
-            made[i].soup = mesh.leaf_count >= kManyLeaves ? reduce_thoroughly(mesh.soup, limit_m, threads)
-                                                          : reduce_within(mesh.soup, limit_m, threads);
+            made[i].soup = reduce_within(mesh.soup, limit_m, threads);
     });
     for (size_t i = 0; i < missing.size(); ++i) {
         DraftMesh& mesh = draft.meshes[missing[i]];

@@ -53,7 +53,6 @@ struct DraftMesh {
     FaceSoup soup;
     std::vector<MeshRung> rungs;  ///< levels rise; made when they are needed
     uint32_t geometry = kNoGeometry;
-    uint32_t leaf_count = 0;  ///< clusters that are it
     glm::dvec3 box_min{0.0}, box_max{0.0};
 };
 

@@ -1,7 +1,6 @@
 #include "objects/reduction/reduce.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -21,20 +20,13 @@ namespace {
 constexpr double kWeldShare = 1.0 / 64.0;  ///< of the limit: cells in which points become one at once
 constexpr double kFirstShare =
     0.05;  ///< … what is finely bent becomes plain first: strips would go one by one
-constexpr double kCoverShare = 0.4;  ///< … faces nearer than that to larger ones go
+constexpr double kCoverShare = 0.4;        ///< … faces nearer than that to larger ones go
+constexpr double kSecondCoverShare = 0.3;  ///< … once parts have grown together
+constexpr double kReachShare = 0.8;        ///< … how near to each other points of different parts join
+constexpr double kToleranceShare = 0.6;  ///< … what contraction may guess; the rest is for what it overlooks
 constexpr double kGrownShare =
     0.5;  ///< of stand-ins' faces; what has grown together so far has no gaps to be gathered across …
 constexpr double kMissingShare = 0.25;  ///< … unless so many of the source's faces are not near it
-
-/// How far a proposal goes, in shares of the limit.
-struct Boldness {
-    double reach = 0.8;      ///< how near to each other points of different parts join
-    double tolerance = 0.6;  ///< what contraction may guess; the rest is for what it overlooks
-    double cover = 0.1;      ///< faces nearer than that to larger ones go once parts have grown together
-};
-/// Which leads farthest is chance: it is another one from soup to soup and from limit to limit.
-constexpr std::array<Boldness, 4> kTries = {{{}, {.cover = 0.3}, {.tolerance = 0.9}, {.reach = 0.5}}};
-
 /// Of every proof.
 constexpr lod::PieceSearch kSearch{.most_pieces = 4096, .smallest_share = 1.0 / 32};
 
@@ -62,14 +54,14 @@ void take_out_wrong(const FaceSoup& source, const lod::TriangleTree& source_tree
 }
 
 /// Grows parts together first, so that what was a border is none any more when edges are judged.
-FaceSoup propose(const FaceSoup& welded, double limit_m, const Boldness& boldness) {
+FaceSoup propose(const FaceSoup& welded, double limit_m) {
     const std::vector<double> first_m(welded.points.size(), kFirstShare * limit_m);
     FaceSoup base = large_cover(contract(welded, first_m, {}), kCoverShare * limit_m);
     drop_unused_points(base);
-    const double reach_m = boldness.reach * limit_m;
-    const std::vector<double> tolerance_m(base.points.size(), boldness.tolerance * limit_m);
+    const double reach_m = kReachShare * limit_m;
+    const std::vector<double> tolerance_m(base.points.size(), kToleranceShare * limit_m);
     const FaceSoup grown = contract(base, tolerance_m, {.close_m = reach_m, .longest_m = reach_m});
-    return contract(large_cover(grown, boldness.cover * limit_m), tolerance_m, {});
+    return contract(large_cover(grown, kSecondCoverShare * limit_m), tolerance_m, {});
 }
 
 std::vector<uint8_t> all_of(const StandIns& parts) {
@@ -123,7 +115,9 @@ bool are_of_one_colour(const FaceSoup& source, const StandIns& parts) {
     return true;
 }
 
-FaceSoup reduce(const FaceSoup& source, double limit_m, const Boldness& boldness, unsigned threads) {
+}  // namespace
+
+FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads) {
     CHECK(limit_m > 0.0);
     if (source.faces.empty()) return {};
     const lod::TriangleTree source_tree(source.view());
@@ -133,7 +127,7 @@ FaceSoup reduce(const FaceSoup& source, double limit_m, const Boldness& boldness
     FaceSoup grown;
     // A single part with a stand-in has nothing to grow together with.
     if (parts.part_count() > 1 || parts.is_replaced[0] == 0) {
-        grown = propose(welded, limit_m, boldness);
+        grown = propose(welded, limit_m);
         if (static_cast<double>(grown.faces.size()) >
             kGrownShare * static_cast<double>(parts.soup.faces.size()))
             gather_stand_ins(source, source_tree, limit_m, all_of(parts), threads, parts);
@@ -155,21 +149,6 @@ FaceSoup reduce(const FaceSoup& source, double limit_m, const Boldness& boldness
     if (result.faces.size() >= source.faces.size()) return source;
     turn_open_parts_up(kWeldShare * limit_m, result);  // rods' cards, too
     return result;
-}
-
-}  // namespace
-
-FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads) {
-    return reduce(source, limit_m, {}, threads);
-}
-
-FaceSoup reduce_thoroughly(const FaceSoup& source, double limit_m, unsigned threads) {
-    FaceSoup best;
-    for (const Boldness& boldness : kTries) {
-        FaceSoup result = reduce(source, limit_m, boldness, threads);
-        if (best.faces.empty() || result.faces.size() < best.faces.size()) best = std::move(result);
-    }
-    return best;
 }
 
 }  // namespace objects

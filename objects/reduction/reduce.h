@@ -17,8 +17,4 @@ namespace objects {
 /// Cost: O(n log n); 5 to 20 us a face. Deterministic.
 FaceSoup reduce_within(const FaceSoup& source, double limit_m, unsigned threads = 1);
 
-/// The same, with the fewest faces of several ways to go about it: for what is drawn over and over.
-/// Cost: four times that.
-FaceSoup reduce_thoroughly(const FaceSoup& source, double limit_m, unsigned threads = 1);
-
 }  // namespace objects

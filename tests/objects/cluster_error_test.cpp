@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "lod/base/rng.h"
 #include "objects/reduction/reduce.h"
 #include "tests/objects/boxes.h"
 #include "tests/objects/sampled_distance.h"
@@ -34,35 +33,6 @@ TEST(ReduceWithin, ABallKeepsItsShape) {
         for (const glm::u8vec4& colour : reduced.colours)
             EXPECT_EQ(colour, glm::u8vec4(1, 2, 3, 255));
     }
-}
-
-/// A heap of boxes, no two alike.
-FaceSoup heap_of_boxes(uint64_t seed) {
-    lod::Rng rng(seed);
-    FaceSoup heap;
-    for (int i = 0; i < 6; ++i) {
-        const glm::dvec3 low(rng.between(0.0, 3.0), rng.between(0.0, 3.0), rng.between(0.0, 3.0));
-        const glm::dvec3 size(rng.between(0.1, 2.0), rng.between(0.1, 2.0), rng.between(0.1, 2.0));
-        objects_test::add_box(low, low + size, {90, 120, 60, 255}, heap);
-    }
-    return heap;
-}
-
-TEST(ReduceWithin, ThoroughlyIsWithFewerFacesAndWithinTheSameLimit) {
-    size_t usual = 0, thorough = 0;
-    for (uint64_t seed = 1; seed <= 20; ++seed) {
-        const FaceSoup heap = heap_of_boxes(seed);
-        for (const double limit_m : {0.15, 0.3}) {
-            const FaceSoup reduced = objects::reduce_thoroughly(heap, limit_m);
-            const size_t faces = objects::reduce_within(heap, limit_m).faces.size();
-            ASSERT_LE(reduced.faces.size(), faces) << seed << ", " << limit_m;
-            EXPECT_LE(sampled_both_ways_m(heap, reduced, 0.2), limit_m + 1e-9);
-            usual += faces;
-            thorough += reduced.faces.size();
-        }
-    }
-    std::printf("40 heaps of 72 faces: %zu faces, thoroughly %zu\n", usual, thorough);
-    EXPECT_LT(thorough, usual - usual / 50);
 }
 
 /// What a ray from above meets first, and all that lies there with it: whether none of it looks down.
