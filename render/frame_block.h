@@ -14,9 +14,8 @@ using Vec4 = std::array<float, 4>;
 
 /// 128 bytes. Directions in the eye frame, unit length.
 struct FrameBlock {
-    Vec4
-        projection{};  ///< xy: clip coordinates of a slope of 1; near [m]; metres per pixel at depth 1 (1/lambda)
-    Vec4 ray{};        ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
+    Vec4 projection{};    ///< clip x and y per slope, near [m], metres per pixel at depth 1 (1/lambda)
+    Vec4 ray{};           ///< a pixel's ray is (pixel.xy * ray.xy + ray.zw, -1), length free
     Vec4 sun_eye{};       ///< w: cosine of the sun disc's radius
     Vec4 up_eye{};        ///< w: clip coordinate of the picture's right and upper edge
     Vec4 haze{};          ///< extinction at the datum [octaves/m], thinning with height [octaves/m], thinning
