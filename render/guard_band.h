@@ -13,11 +13,11 @@
 
 namespace render {
 
-/// How many times as wide and high as the picture the driver lets the viewport be: 4, 2 or 1. Powers of two, so that
-/// positions are rounded as without it. Needs a current context.
+/// How many times as wide and high as the picture, which is that many pixels, > 0, the viewport is: 4, or less where the driver
+/// has no room for that, 2 or 1. Powers of two, so that positions are rounded as without it. Needs a current context.
 int guard_ratio(int width_px, int height_px);
 
-/// For the next draws. @param ratio  as above
+/// For the next draws into a picture of that many pixels; state of the current context. @param ratio  as above
 void set_viewport(int width_px, int height_px, int ratio);
 
 }  // namespace render

@@ -22,7 +22,7 @@ struct Renderer::State {
     std::optional<EglContext> egl;  ///< one of these two has the context
     std::optional<Window> window;
     Target target;
-    int guard_ratio = 1;
+    int guard_ratio = 1;  ///< of the target
     GeometryPool pool;
     PoolCapacity pool_capacity;
     IndirectPass pass;

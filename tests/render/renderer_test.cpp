@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lod/base/rng.h"
+#include "render/guard_band.h"
 #include "tests/render/scene_kit.h"
 
 namespace {
@@ -85,6 +86,16 @@ void expect_the_sky_from_edge_to_edge(int width_px, int height_px, render::Rende
     const auto sky = renderer.read_colour();
     for (const int x : {0, width_px / 2, width_px - 1})
         EXPECT_NE(pixel(sky, x, height_px / 2), 0xff00ffu) << "no sky at " << x << " of " << width_px;
+}
+
+TEST_F(RendererTest, UsualPicturesHaveAGuardBand) {
+    RENDERER_OR_SKIP(renderer, 16, 16);
+    if (!renderer.is_software()) GTEST_SKIP() << "the room for viewports is the driver's";
+    EXPECT_EQ(render::guard_ratio(640, 360), 4);
+    EXPECT_EQ(render::guard_ratio(3840, 2160), 4);
+    EXPECT_EQ(render::guard_ratio(6001, 9), 2);
+    EXPECT_EQ(render::guard_ratio(9, 6001), 2);
+    EXPECT_EQ(render::guard_ratio(12000, 9), 1);
 }
 
 // Where viewports may have 16,384 px, as on Mesa's rasteriser, half of the usual guard band fits around this picture.
