@@ -1,7 +1,7 @@
 // ClusterSieve: takes the triangles that no pixel shows out of what clusters draw (lod/triangle_sieve.h), and puts what is left of
 // one instance together in one command.
 //
-//     picture  | strip | strip | strip | strip |    judged by themselves, on as many threads
+//     picture  | strip | strip | strip | strip |    judged by themselves, by whichever thread is free
 //
 // All are asked as long as enough of them are found hidden. Otherwise one strip is asked every few frames, another one each
 // time, whether asking would pay again: no frame is late for a question.
