@@ -80,6 +80,9 @@ class Front {
     /// Triangles of the cut, in view or not.
     virtual uint64_t triangles() const = 0;
 
+    /// Triangles that are not counted any more but drawn until what glides away has gone.
+    virtual uint64_t leaving_triangles() const { return 0; }
+
     /// Guaranteed upper bound of the screen error over everything inside the views, px.
     virtual double error_px() = 0;
 

@@ -39,10 +39,21 @@ uint64_t total_triangles(std::span<Front* const> fronts) {
 /// Triangles that one refinement may bring at the most, forced ones included, on any hierarchy of ours.
 constexpr uint64_t kLargestRefinement = 64;
 
+bool is_leaving(std::span<Front* const> fronts) {
+    return std::any_of(fronts.begin(), fronts.end(),
+                       [](const Front* front) { return front->leaving_triangles() > 0; });
+}
+
+/// While something leaves, which makes way for more that is as cheap, nothing beyond this times the worst error is given up.
+constexpr double kPatience = 1.1;
+
 /// One call's bargain: what has been given up for room sets what a further refinement must at least gain.
 class Bargain {
   public:
-    Bargain(std::span<Front* const> fronts, const Budget& budget) : fronts_(fronts), budget_(budget) {}
+    Bargain(std::span<Front* const> fronts, const Budget& budget)
+        : fronts_(fronts),
+          budget_(budget),
+          patience_px_(kPatience * std::max(worst(fronts).error_px, budget.tolerance_px)) {}
 
     /// One operation; false when there is nothing worth doing.
     bool step() {
@@ -53,7 +64,7 @@ class Bargain {
         // The usual step first: nobody need say what could go while there is room.
         if (is_needed && triangles + kLargestRefinement <= budget_.max_triangles) return refine(high);
         const Choice low = cheapest(fronts_);
-        if (is_over && low.front) return give_up(low);
+        if (is_over && low.front && !is_worth_waiting(low)) return give_up(low);
         if (is_needed) {
             const bool is_worth_it = !low.front || high.error_px > low.error_px * budget_.swap_ratio;
             if (is_worth_it && triangles < budget_.max_triangles) return refine(high);
@@ -73,6 +84,9 @@ class Bargain {
         return least.front &&
                least.front->coarsen(budget_.tolerance_px * least.front->coarsen_ratio()).steps > 0;
     }
+    bool is_worth_waiting(const Choice& low) const {
+        return low.error_px > patience_px_ && is_leaving(fronts_);
+    }
     bool is_gain(const Choice& high) const { return high.error_px > paid_px_ * budget_.swap_ratio; }
     bool refine(const Choice& high) { return is_gain(high) && high.front->refine().steps > 0; }
     bool give_up(const Choice& low) {
@@ -82,6 +96,7 @@ class Bargain {
 
     std::span<Front* const> fronts_;
     const Budget& budget_;
+    double patience_px_ = 0.0;
     double paid_px_ = 0.0;
 };
 

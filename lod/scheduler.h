@@ -1,7 +1,8 @@
 // The scheduler: one budget shared by all fronts, refinement interruptible after any operation.
 //
 //     while time is left
-//         too many triangles        -> coarsen where it costs least
+//         too many triangles        -> coarsen where it costs least; while something leaves, which makes way for more that
+//                                      is cheap, not where it costs more than the worst error there is
 //         worst error > tolerance   -> refine there; near the triangle limit first make room, but only when the
 //                                      swap gains more than the hysteresis over all that was given up so far
 //         else                      -> release what stays below tolerance * a front's coarsen_ratio, until nothing is left;
@@ -31,7 +32,7 @@ inline Deadline operation_limit(uint64_t limit) {
 /// What a frame may spend and what it should reach.
 struct Budget {
     double tolerance_px = 1.0;            ///< >= 0; refine what exceeds it; 0 asks for the source data itself
-    uint64_t max_triangles = UINT64_MAX;  ///< over all fronts
+    uint64_t max_triangles = UINT64_MAX;  ///< over all fronts; what is given up for it may take some frames
     double swap_ratio = 1.5;  ///< > 1: at the triangle limit, swap when refining gains this factor
 };
 

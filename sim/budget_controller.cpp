@@ -2,28 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace sim {
 namespace {
 
 constexpr double kOutlier = 3.0;
-constexpr double kGainShort = 0.15, kGainNear = 0.3, kGainLong = 0.7;
-constexpr double kGrowth = 1.2;  // no frame may have more than this times the triangles of the one before
+constexpr double kGain = 0.15;
+constexpr double kGrowth = 1.2;      // no frame may have more than this times the triangles of the one before
+constexpr double kSlowShare = 0.95;  // so many frames are faster than what noise is measured by
+constexpr uint64_t kFewest = 32;     // frames that say something about noise
+constexpr double kMostNoise = 1.4;    // no room for more: stalls are no noise, and room costs detail
 
-double median(const BudgetController& controller) {
-    const size_t count = std::min<size_t>(controller.seen, controller.ratios.size());
-    if (count == 0) return 1.0;
-    std::array<double, 9> sorted = controller.ratios;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
-    return *middle;
+/// @param share  in [0, 1): 0.5 for the median  @param seen  of all that were ever put into the ring, at least 1
+template <size_t kSize>
+double quantile(std::array<double, kSize> ring, uint64_t seen, double share) {
+    const std::span values = std::span(ring).first(static_cast<size_t>(std::min<uint64_t>(seen, kSize)));
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+double usual(const BudgetController& controller) {
+    return controller.seen == 0 ? 1.0 : quantile(controller.ratios, controller.seen, 0.5);
+}
+
+/// How many times longer than usual one frame in twenty takes, at least.
+double noise(const BudgetController& controller) {
+    if (controller.seen < kFewest) return 1.0;
+    return std::min(quantile(controller.excess, controller.seen, kSlowShare), kMostNoise);
+}
+
+void note(BudgetController& controller, double ratio) {
+    controller.ratios[controller.seen % controller.ratios.size()] = ratio;
+    ++controller.seen;
+    controller.excess[(controller.seen - 1) % controller.excess.size()] = ratio / usual(controller);
 }
 
 void scale_model(BudgetController& controller, double factor) {
     controller.fixed_ms *= factor;
     controller.per_triangle_ms *= factor;
+}
+
+/// Moves towards what is usual now.
+void follow(BudgetController& controller) {
+    const double factor = 1.0 + kGain * (usual(controller) - 1.0);
+    scale_model(controller, factor);
     for (double& ratio : controller.ratios)
         ratio /= factor;  // past frames, seen with the new figures
+}
+
+/// The frame tells what is usual from now on; those before are forgotten.
+void believe(BudgetController& controller, double ratio) {
+    scale_model(controller, ratio);
+    controller.ratios.fill(1.0);
 }
 
 }  // namespace
@@ -33,27 +65,22 @@ void observe(BudgetController& controller, uint64_t drawn_triangles, double meas
         controller.fixed_ms + controller.per_triangle_ms * static_cast<double>(drawn_triangles);
     const double ratio = std::max(measured_ms, 1e-3) / predicted_ms;
     const bool is_calibrated = controller.seen >= 3;
-    const bool is_outlier = is_calibrated && ratio > kOutlier * median(controller);
-    if (is_outlier && !controller.was_outlier) {
-        controller.was_outlier = true;
-        return;
-    }
-    const bool is_new_load = !is_calibrated || is_outlier;
-    controller.was_outlier = false;
-    controller.ratios[controller.seen % controller.ratios.size()] = ratio;
-    ++controller.seen;
-    const double gain = is_new_load                                ? 1.0
-                        : measured_ms > controller.target.frame_ms ? kGainLong
-                        : ratio > 0.9                              ? kGainNear
-                                                                   : kGainShort;
-    scale_model(controller, 1.0 + gain * (ratio - 1.0));
+    const bool is_outlier = is_calibrated && ratio > kOutlier * usual(controller);
+    const bool is_stall = is_outlier && !controller.was_outlier;
+    controller.was_outlier = is_stall;
+    note(controller, ratio);
+    if (is_stall) return;
+    if (is_outlier || !is_calibrated)
+        believe(controller, ratio);
+    else
+        follow(controller);
 
-    const double room_ms = controller.target.frame_ms - controller.fixed_ms;
-    const double wanted = std::max(room_ms, 0.0) / controller.per_triangle_ms;
+    const BudgetTarget& target = controller.target;
+    const double wanted_ms = target.frame_ms * std::min(1.0, target.noise_room / noise(controller));
+    const double wanted = std::max(wanted_ms - controller.fixed_ms, 0.0) / controller.per_triangle_ms;
     const double limit = std::min(wanted, kGrowth * static_cast<double>(controller.triangles));
-    controller.triangles =
-        static_cast<uint64_t>(std::clamp(limit, static_cast<double>(controller.target.min_triangles),
-                                         static_cast<double>(controller.target.max_triangles)));
+    controller.triangles = static_cast<uint64_t>(std::clamp(
+        limit, static_cast<double>(target.min_triangles), static_cast<double>(target.max_triangles)));
 }
 
 }  // namespace sim

@@ -37,6 +37,7 @@ struct Loop {
 Loop make_loop(const LoopOptions& options) {
     Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}, options.schedule, 0.0};
     loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
+    loop.controller.target.noise_room = (1.0 - kMarginShare) / kTriangleShare;
     loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
     loop.controller.target.min_triangles =
         std::min(static_cast<uint64_t>(kLeastPerMs * loop.period_ms()), loop.controller.target.max_triangles);
@@ -70,7 +71,7 @@ void learn(Loop& loop, const FrameRecord& record) {
     const double rest_ms = record.total_ms - record.refine_ms;
     loop.rest_ms +=
         (rest_ms > loop.rest_ms ? 0.5 : 0.1) * (std::min(rest_ms, 2.0 * loop.period_ms()) - loop.rest_ms);
-    observe(loop.controller, record.cut_triangles, rest_ms);
+    observe(loop.controller, record.drawn_triangles, rest_ms);
 }
 
 lod::Result<lod::Ok> warm_up(Loop& loop, Stage& stage) {

@@ -33,7 +33,7 @@ struct FrameRecord {
     lod::OperationCounts operations;  ///< of this frame
     uint32_t draw_calls = 0, commands = 0;
     uint64_t front_hash = 0;            ///< of all fronts' cuts
-    uint64_t cut_triangles = 0;         ///< in the adaptive fronts, in view or not; not reported
+    uint64_t drawn_triangles = 0;       ///< of the adaptive fronts, in view or not; not reported
     uint64_t scheduled_operations = 0;  ///< calls of refine and coarsen; not reported
     bool converged = false;             ///< nothing was left to do; not reported
 };

@@ -95,6 +95,14 @@ uint64_t cut_triangles(const Stage& stage, bool adapts) {
     return sum;
 }
 
+/// What glides away and is still drawn.
+uint64_t leaving_triangles(const Stage& stage) {
+    uint64_t sum = 0;
+    for (const WorldFront& member : stage.members)
+        sum += member.front->leaving_triangles();
+    return sum;
+}
+
 /// The scheduler counts all fronts; what cannot adapt is given to it on top.
 lod::Budget with_rigid(const Stage& stage, lod::Budget budget) {
     const uint64_t rigid = cut_triangles(stage, false);
@@ -125,7 +133,7 @@ void record_fronts(Stage& stage, FrameRecord& record) {
         record.operations.count[i] = now.count[i] - stage.operations_before.count[i];
     }
     stage.operations_before = now;
-    record.cut_triangles = cut_triangles(stage, true);
+    record.drawn_triangles = cut_triangles(stage, true) + leaving_triangles(stage);
     record.draw_calls = stage.renderer.stats().draw_calls;
     record.commands = stage.renderer.stats().commands;
 }

@@ -80,6 +80,7 @@ class RoamFront final : public lod::Front {
     uint64_t triangles() const override {
         return ((mesh_.triangles() - idle_triangles_) << (2 * options_.batch)) - leaving_triangles_;
     }
+    uint64_t leaving_triangles() const override { return leaving_triangles_; }
     double error_px() override;
     lod::OperationCounts operations() const override { return operations_; }
     uint64_t hash() const override { return mesh_.hash(); }

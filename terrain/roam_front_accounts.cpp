@@ -57,7 +57,7 @@ void RoamFront::note_change(DiamondIndex index, bool is_split) {
 }
 
 uint64_t RoamFront::most_triangles() const {
-    return std::max(triangles() + leaving_triangles_, options_.reserve_triangles);
+    return std::max(triangles() + leaving_triangles(), options_.reserve_triangles);
 }
 
 uint32_t RoamFront::most_records() const {

@@ -46,6 +46,7 @@ class MeshBody {
     double jump_px() const { return std::max(jump_px_, waiting_pops_.worst_px(ranks_.eyes())); }
     /// Of the cut, without those that go when what glides away has gone; 0 while asleep.
     uint64_t triangles() const { return is_asleep_ ? 0 : cut_.triangle_count() - leaving_triangles_; }
+    uint64_t leaving_triangles() const { return is_asleep_ ? 0 : leaving_triangles_; }
     const OperationCounts& operations() const { return operations_; }
     std::string validate() const;
 

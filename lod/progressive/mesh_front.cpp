@@ -133,6 +133,13 @@ double MeshFront::error_px() {
     return worst;
 }
 
+uint64_t MeshFront::leaving_triangles() const {
+    uint64_t sum = 0;
+    for (const Entry& entry : bodies_)
+        sum += entry.body.leaving_triangles();
+    return sum;
+}
+
 double MeshFront::jump_px() const {
     double farthest = 0.0;
     for (const Entry& entry : bodies_)

@@ -41,6 +41,7 @@ class MeshFront final : public Front {
     Step coarsen(double limit_px) override;
     /// What sleeping bodies hold is not drawn and not counted (mesh_body.h).
     uint64_t triangles() const override { return triangles_; }
+    uint64_t leaving_triangles() const override;
     double error_px() override;
     double jump_px() const override;
     OperationCounts operations() const override;

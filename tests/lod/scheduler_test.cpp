@@ -68,6 +68,66 @@ class Halving final : public lod::Front {
     }
 };
 
+/// A hundred cheap things that go one a frame, as one must have glided away before the next can; ten dear ones, at any time.
+class Gliding final : public lod::Front {
+  public:
+    static constexpr double kCheap_px = 2.0, kDear_px = 500.0;
+
+    void begin_frame(std::span<const lod::View>, double) override { is_leaving_ = false; }
+    double refine_error_px() override { return dear_ < 10 ? kDear_px : cheap_ < 100 ? kCheap_px : 0.0; }
+    double coarsen_error_px() override {
+        if (cheap_ > 0 && !is_leaving_) return kCheap_px;
+        return dear_ > 0 ? kDear_px : std::numeric_limits<double>::infinity();
+    }
+    lod::Step refine() override {
+        ++(dear_ < 10 ? dear_ : cheap_);
+        return {2, 1};
+    }
+    lod::Step coarsen(double limit_px) override {
+        if (coarsen_error_px() > limit_px) return {};
+        if (coarsen_error_px() == kDear_px) {
+            --dear_;
+        } else {
+            --cheap_;
+            is_leaving_ = true;
+        }
+        return {-2, 1};
+    }
+    uint64_t triangles() const override { return 2 * (cheap_ + dear_); }
+    uint64_t leaving_triangles() const override { return is_leaving_ ? 2 : 0; }
+    double error_px() override { return refine_error_px(); }
+    lod::OperationCounts operations() const override { return {}; }
+    uint64_t hash() const override { return 0; }
+    lod::PoolRegion pool_need() const override { return {}; }
+    void place(const lod::PoolRegion&) override {}
+    void emit(const lod::View&, lod::DrawList&) override {}
+    uint64_t emitted_triangles() const override { return 0; }
+    std::string validate() const override { return ""; }
+
+    uint64_t cheap_ = 100, dear_ = 10;
+
+  private:
+    bool is_leaving_ = false;
+};
+
+/// A limit that falls at once is reached when what is cheap has had time to go, not by giving up whatever can go now.
+TEST(Scheduler, WaitsForWhatIsCheapInsteadOfGivingUpWhatIsDear) {
+    Gliding front;
+    lod::Front* fronts[] = {&front};
+    for (int frame = 0; frame < 40; ++frame) {
+        front.begin_frame({}, 0.0);
+        lod::schedule(fronts, {.tolerance_px = 1.0, .max_triangles = 180}, lod::operation_limit(1000));
+        EXPECT_EQ(front.dear_, 10u) << "frame " << frame;
+    }
+    EXPECT_EQ(front.triangles(), 180u);
+    // What nothing cheap can do for is done by what there is.
+    for (int frame = 0; frame < 100; ++frame) {
+        front.begin_frame({}, 0.0);
+        lod::schedule(fronts, {.tolerance_px = 1.0, .max_triangles = 10}, lod::operation_limit(1000));
+    }
+    EXPECT_EQ(front.triangles(), 10u);
+}
+
 TEST(Scheduler, ReachesTheToleranceAndStops) {
     Halving a({40.0, 3.0, 0.5}), b({100.0});
     lod::Front* fronts[] = {&a, &b};
