@@ -12,7 +12,7 @@ constexpr double kGain = 0.15;
 constexpr double kGrowth = 1.2;      // no frame may have more than this times the triangles of the one before
 constexpr double kSlowShare = 0.95;  // so many frames are faster than what noise is measured by
 constexpr uint64_t kFewest = 32;     // frames that say something about noise
-constexpr double kMostNoise = 1.4;    // no room for more: stalls are no noise, and room costs detail
+constexpr double kMostNoise = 1.4;   // no room for more: stalls are no noise, and room costs detail
 
 /// @param share  in [0, 1): 0.5 for the median  @param seen  of all that were ever put into the ring, at least 1
 template <size_t kSize>
@@ -79,8 +79,8 @@ void observe(BudgetController& controller, uint64_t drawn_triangles, double meas
     const double wanted_ms = target.frame_ms * std::min(1.0, target.noise_room / noise(controller));
     const double wanted = std::max(wanted_ms - controller.fixed_ms, 0.0) / controller.per_triangle_ms;
     const double limit = std::min(wanted, kGrowth * static_cast<double>(controller.triangles));
-    controller.triangles = static_cast<uint64_t>(std::clamp(
-        limit, static_cast<double>(target.min_triangles), static_cast<double>(target.max_triangles)));
+    controller.triangles = static_cast<uint64_t>(std::clamp(limit, static_cast<double>(target.min_triangles),
+                                                            static_cast<double>(target.max_triangles)));
 }
 
 }  // namespace sim

@@ -50,14 +50,16 @@ int main(int count, char** words) {
     if (!scene) return fail(scene.message());
     auto world = sim::build_world(*scene, {});
     if (!world) return fail(world.message());
-    auto stage = sim::make_stage(std::move(*world), {.fov_y_rad = scene->start.fov_y_rad}, {.draws_frames = true});
+    auto stage =
+        sim::make_stage(std::move(*world), {.fov_y_rad = scene->start.fov_y_rad}, {.draws_frames = true});
     if (!stage) return fail(stage.message());
 
     std::vector<double> times_ms, errors_px, triangles;
     const double begin_s = scene->start.time_s.value_or(scene->time.begin_s);
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
         const double time_s = begin_s + std::max(frame, 0) / kRate_hz;
-        const sim::Shot shot{sim::pose_at(stage->world->eyepoint, time_s), {}, time_s, time_s, frame / kRate_hz};
+        const sim::Shot shot{
+            sim::pose_at(stage->world->eyepoint, time_s), {}, time_s, time_s, frame / kRate_hz};
         sim::Allowance allowance;
         allowance.budget.max_triangles = controller.triangles;
         allowance.deadline = lod::operation_limit(kOperations);
@@ -74,10 +76,12 @@ int main(int count, char** words) {
         errors_px.push_back(*std::max_element(record->error_px.begin(), record->error_px.end()));
         triangles.push_back(static_cast<double>(record->drawn_triangles));
     }
-    const auto late = std::count_if(times_ms.begin(), times_ms.end(), [](double ms) { return ms > kPeriod_ms; });
+    const auto late =
+        std::count_if(times_ms.begin(), times_ms.end(), [](double ms) { return ms > kPeriod_ms; });
     std::printf(
         "{\"frames\": %d, \"late\": %d, \"p50_ms\": %.1f, \"p95_ms\": %.1f, \"error_p50_px\": %.1f, "
         "\"error_p95_px\": %.1f, \"error_max_px\": %.1f, \"triangles_p50\": %.0f, \"triangles_p5\": %.0f}\n",
-        frames, static_cast<int>(late), quantile(times_ms, 0.5), quantile(times_ms, 0.95), quantile(errors_px, 0.5),
-        quantile(errors_px, 0.95), quantile(errors_px, 1.0), quantile(triangles, 0.5), quantile(triangles, 0.05));
+        frames, static_cast<int>(late), quantile(times_ms, 0.5), quantile(times_ms, 0.95),
+        quantile(errors_px, 0.5), quantile(errors_px, 0.95), quantile(errors_px, 1.0),
+        quantile(triangles, 0.5), quantile(triangles, 0.05));
 }
