@@ -149,7 +149,7 @@ double RoamFront::error_px() {
     for (BucketQueue* queue : {&splits(), &waits()}) {
         if (!queue->is_empty()) settled = std::max(settled, double(scale_.upper_px(queue->highest())));
     }
-    return settled + glide_px_;
+    return std::max(settled, set_out_px_) + glide_px_;
 }
 
 /// Splits one candidate whose parents are split.

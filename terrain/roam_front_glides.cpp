@@ -134,7 +134,7 @@ void RoamFront::stay(DiamondIndex index) {
 void RoamFront::advance_glides(bool is_cut) {
     is_cut_ = is_cut;
     forget_pops();
-    glided_px_ = glide_px_ = 0.0;
+    glided_px_ = glide_px_ = set_out_px_ = 0.0;
     if (is_cut) {
         edited_px_ = 0.0;
         for (int level = 0; level <= table_.domain.finest_level(); ++level) {

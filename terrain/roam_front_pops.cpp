@@ -56,7 +56,8 @@ void RoamFront::let_come(DiamondIndex index, bool is_watched) {
     if (is_cut_) return;
     has_come_unseen_.set(index, !is_watched);
     if (!is_watched || bucket_of(index) <= kFlatBucket) return;
-    if (!is_gliding(index) || !start_glide(index, false)) note_pop(index);
+    if (!is_gliding(index) || !start_glide(index, false)) return note_pop(index);
+    set_out_px_ = std::max(set_out_px_, double(scale_.upper_px(bucket_of(index))));
 }
 
 /// A vertex that appears or goes at once, in sight and not in a cut, moves the surface by as far as it is from its

@@ -78,6 +78,7 @@ void MeshBody::begin_frame(std::span<const View> views_body, double time_s) {
     const bool wakes = is_seen && is_asleep_;
     const double passed_s = time_s - now_s_;
     now_s_ = time_s;
+    set_out_px_ = 0.0;
     if (!is_seen && !is_asleep_) settle();
     is_asleep_ = !is_seen;
     if (is_asleep_) return;
@@ -158,7 +159,7 @@ double MeshBody::error_px() const {
     if (is_asleep_) return 0.0;
     const BucketQueue& splits = ranks_.queue_at(NodeQueue::kSplit);
     const double settled = splits.is_empty() ? 0.0 : double(ranks_.scale().upper_px(splits.highest()));
-    return settled + glide_px_;
+    return std::max(settled, set_out_px_) + glide_px_;
 }
 
 void MeshBody::admit_children(NodeId node) {
@@ -198,6 +199,7 @@ void MeshBody::split_one(NodeId node) {
     // Its evaluation stands; that it does not watch for a fall yet only delays a collapse until it next wakes.
     ranks_.enqueue(record, NodeQueue::kMerge);
     if (!is_gliding(record)) return note_pop(record);
+    set_out_px_ = std::max(set_out_px_, double(ranks_.scale().upper_px(ranks_.bucket(record))));
     for (NodeId child : mesh().hierarchy.children[record]) {
         const glm::vec3 from_m = shown_m - mesh().hierarchy.position[child];
         if (from_m != glm::vec3(0.0f)) glides_.come(child, from_m, now_s_);

@@ -24,15 +24,23 @@ inline Soup soup_of(const PlainMesh& mesh) {
     return soup;
 }
 
-inline Soup drawn(const lod::MeshCut& cut) {
+/// @param displacement_m  (node) -> from its place to where it is shown
+template <typename Displacement>
+Soup drawn(const lod::MeshCut& cut, const Displacement& displacement_m) {
     Soup soup;
     for (uint32_t t = 0; t < cut.mesh().triangle_count(); ++t) {
         if (!cut.is_drawn(t)) continue;
         soup.emplace_back();
-        for (size_t i = 0; i < 3; ++i)
-            soup.back()[i] = glm::dvec3(cut.mesh().hierarchy.position[cut.corners(t)[i]]);
+        for (size_t i = 0; i < 3; ++i) {
+            const lod::NodeId node = cut.corners(t)[i];
+            soup.back()[i] = glm::dvec3(cut.mesh().hierarchy.position[node] + displacement_m(node));
+        }
     }
     return soup;
+}
+
+inline Soup drawn(const lod::MeshCut& cut) {
+    return drawn(cut, [](lod::NodeId) { return glm::vec3(0.0f); });
 }
 
 /// Nearest point of a segment.

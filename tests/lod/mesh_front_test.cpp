@@ -124,6 +124,35 @@ TEST(MeshFront, NothingInViewDepartsByMoreThanTold) {
     RecordProperty("worst_share", std::to_string(worst_share));
 }
 
+/// Nor while vertices are under way, in the frame they set out least of all: what is drawn then is the mesh of before.
+TEST(MeshFront, NothingDepartsByMoreThanToldWhileVerticesGlide) {
+    lod::Rng rng(4);
+    lod::MeshOptions gliding = options(0.3);
+    gliding.ranks.silhouette_weight = 1.0;
+    MeshFront front(lod::Module::kInstruments, one_mesh(), std::vector<lod::MeshPlacement>(1), gliding);
+    lod::Front* fronts[] = {&front};
+    double away = 30.0, time_s = 0.0, worst_share = 0.0;
+    size_t most_gliding = 0;
+    for (int frame = 0; frame < 5; ++frame) {
+        away *= frame < 4 ? 0.8 : 1.2;
+        const View view = view_from(glm::dvec3(2.0, 0.2, 0.0) + glm::dvec3(0.1, -0.9, 0.4) * away);
+        front.begin_frame({&view, 1}, time_s += 1.0 / 60.0);
+        lod::schedule(fronts, {}, lod::operation_limit(frame % 3 == 0 ? rng.below(40) : UINT64_MAX));
+        const lod::MeshBody& body = front.body(0);
+        most_gliding = std::max(most_gliding, body.glides().all().size());
+        const lod_test::Soup soup =
+            lod_test::drawn(body.cut(), [&](lod::NodeId node) { return body.glides().displacement_m(node); });
+        const lod_test::Departure found = lod_test::departure_px(source(), soup, lod::metric_of(view), rng);
+        const double told_px = front.error_px();
+        const double farthest_px = std::max(found.full_to_drawn_px, found.drawn_to_full_px);
+        EXPECT_LE(farthest_px, told_px + 1e-9) << "frame " << frame;
+        worst_share = std::max(worst_share, farthest_px / told_px);
+    }
+    EXPECT_GT(most_gliding, 100u);
+    EXPECT_GT(worst_share, 0.1);
+    RecordProperty("worst_share", std::to_string(worst_share));
+}
+
 TEST(MeshFront, ZeroToleranceIsTheFullMesh) {
     MeshFront front(lod::Module::kInstruments, one_mesh(), std::vector<lod::MeshPlacement>(1), options(0.0));
     converge(front, view_from({2.0, -14.0, 3.0}), 0.0, 0.0);

@@ -50,6 +50,24 @@ TEST(Glide, TheSurfaceMovesNoMoreThanTold) {
     EXPECT_GT(worst_px, 0.0);
 }
 
+/// In every frame, that in which vertices set out among them: what is drawn then is the mesh of before.
+TEST(Glide, TheSurfaceIsNoFartherOffThanTold) {
+    Rig rig(0.4);
+    double worst_share = 0.0;
+    for (int frame = 0; frame < 90; ++frame) {
+        SCOPED_TRACE(frame);
+        lod::View view = flight(frame);
+        if (frame >= 30)
+            view = terrain_test::level_view({900.0, 900.0, 460.0 - 2.0 * frame}, 0.03 * frame, -0.3);
+        rig.frame(view, frame / kRate, frame % 10 < 5 ? 12 : UINT64_MAX);  // starved, then not
+        const double off_px = rig.off_px(), told_px = rig.front.error_px();
+        EXPECT_LE(off_px, told_px + 1e-3);
+        worst_share = std::max(worst_share, off_px / told_px);
+    }
+    RecordProperty("worst_share", std::to_string(worst_share));
+    EXPECT_GT(worst_share, 0.3);
+}
+
 TEST(Glide, StandingStillEverythingArrives) {
     Rig rig(0.4);
     for (int frame = 0; frame < 60; ++frame)

@@ -73,6 +73,24 @@ struct SurfaceRig {
         return worst;
     }
 
+    /// The farthest the surface over any sample in view is shown from the sample, px.
+    double off_px() const {
+        double worst = 0.0;
+        for (int y = 0; y < grid.height; ++y) {
+            for (int x = 0; x < grid.width; ++x) {
+                const size_t i = grid.index(x, y);
+                if (std::isnan(now[i])) continue;
+                const glm::dvec3 shown = seen_from(metric_now, grid.frame.world_from_sample(x, y, now[i]));
+                if (lod::distance_outside_m(metric_now, shown, 0.0) > 0.0) continue;
+                const glm::dvec3 is =
+                    seen_from(metric_now, grid.frame.world_from_sample(x, y, double(grid.height_m[i])));
+                const glm::dvec2 shift = glm::dvec2(shown) / -shown.z - glm::dvec2(is) / -is.z;
+                worst = std::max(worst, metric_now.lambda_px * glm::length(shift));
+            }
+        }
+        return worst;
+    }
+
     static glm::dvec3 seen_from(const lod::ViewMetric& metric, const glm::dvec3& world) {
         return metric.eye_from_world * (world - metric.eye_world);
     }
