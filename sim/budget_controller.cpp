@@ -27,7 +27,7 @@ double usual(const BudgetController& controller) {
     return controller.seen == 0 ? 1.0 : quantile(controller.ratios, controller.seen, 0.5);
 }
 
-/// How many times longer than usual one frame in twenty takes, at least.
+/// How many times what is usual one frame in twenty takes or more, as far as there is room for it.
 double noise(const BudgetController& controller) {
     if (controller.seen < kFewest) return 1.0;
     return std::min(quantile(controller.excess, controller.seen, kSlowShare), kMostNoise);
