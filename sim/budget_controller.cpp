@@ -33,7 +33,7 @@ double noise(const BudgetController& controller) {
     return std::min(quantile(controller.excess, controller.seen, kSlowShare), kMostNoise);
 }
 
-void note(BudgetController& controller, double ratio) {
+void remember(BudgetController& controller, double ratio) {
     controller.ratios[controller.seen % controller.ratios.size()] = ratio;
     ++controller.seen;
     controller.excess[(controller.seen - 1) % controller.excess.size()] = ratio / usual(controller);
@@ -68,7 +68,7 @@ void observe(BudgetController& controller, uint64_t drawn_triangles, double meas
     const bool is_outlier = is_calibrated && ratio > kOutlier * usual(controller);
     const bool is_stall = is_outlier && !controller.was_outlier;
     controller.was_outlier = is_stall;
-    note(controller, ratio);
+    remember(controller, ratio);
     if (is_stall) return;
     if (is_outlier || !is_calibrated)
         believe(controller, ratio);

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <thread>
 
-#include "sim/budget_controller.h"
 #include "sim/pilot.h"
 #include "sim/progress.h"
 #include "sim/world_clock.h"
@@ -36,11 +35,7 @@ struct Loop {
 
 Loop make_loop(const LoopOptions& options) {
     Loop loop{options, make_clock(options.begin_s, options.rate_hz), {}, 0.0, {}, options.schedule, 0.0};
-    loop.controller.target.frame_ms = kTriangleShare * loop.period_ms();
-    loop.controller.target.noise_room = (1.0 - kMarginShare) / kTriangleShare;
-    loop.controller.target.max_triangles = options.triangles.value_or(kMostTriangles);
-    loop.controller.target.min_triangles =
-        std::min(static_cast<uint64_t>(kLeastPerMs * loop.period_ms()), loop.controller.target.max_triangles);
+    loop.controller.target = budget_target(options);
     loop.rest_ms = 0.5 * loop.period_ms();
     return loop;
 }
@@ -108,6 +103,15 @@ Shot next_shot(Loop& loop, Stage& stage, int64_t frame, int64_t step) {
 }
 
 }  // namespace
+
+BudgetTarget budget_target(const LoopOptions& options) {
+    const double period_ms = 1e3 / options.rate_hz;
+    const uint64_t most = options.triangles.value_or(kMostTriangles);
+    return {.frame_ms = kTriangleShare * period_ms,
+            .noise_room = (1.0 - kMarginShare) / kTriangleShare,
+            .min_triangles = std::min(static_cast<uint64_t>(kLeastPerMs * period_ms), most),
+            .max_triangles = most};
+}
 
 uint64_t reserve_for(const LoopOptions& options) {
     constexpr uint64_t kForcedSplits = 4096;  // one refinement may overshoot by the splits it forces

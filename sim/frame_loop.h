@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lod/base/result.h"
+#include "sim/budget_controller.h"
 #include "sim/frame_report.h"
 #include "sim/schedule.h"
 #include "sim/stage.h"
@@ -35,6 +36,9 @@ struct LoopOptions {
 /// Limits of the cut when the user gives none.
 inline constexpr uint64_t kMostTriangles = 300000;          ///< the controller's upper end
 inline constexpr uint64_t kDeterministicTriangles = 40000;  ///< in deterministic mode
+
+/// What the loop's controller steers towards: the share of the period that is not for refinement, the rest of it for noise.
+BudgetTarget budget_target(const LoopOptions& options);
 
 /// Room to reserve in the terrain front so that a loop never grows its pool.
 uint64_t reserve_for(const LoopOptions& options);

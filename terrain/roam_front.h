@@ -221,14 +221,14 @@ class RoamFront final : public lod::Front {
     uint64_t idle_triangles_ =
         0;  ///< of the mesh, by splits that draw nothing new: patches end with the grid
     uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
-    double set_out_px_ = 0.0;      ///< worst diamond whose vertex set out in this frame: it is what is drawn
-    double glide_px_ = 0.0;        ///< farthest any vertex is shown from its place
-    double glided_px_ = 0.0;       ///< farthest any vertex has moved since the last frame
-    double popped_px_ = 0.0;       ///< … the surface has jumped where vertices did not glide
-    double edited_px_ = 0.0;       ///< … an edit has moved any vertex
-    double most_popped_px_ = 0.0;  ///< the largest error of a diamond that did not
-    RecordBits has_popped_;        ///< in this frame, in view, without a glide
-    RecordBits has_come_unseen_;   ///< in this frame, where no eye looked in the last
+    double set_out_px_ = 0.0;         ///< error of what was split in this frame and is still drawn
+    double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
+    double glided_px_ = 0.0;          ///< farthest any vertex has moved since the last frame
+    double popped_px_ = 0.0;          ///< … the surface has jumped where vertices did not glide
+    double edited_px_ = 0.0;          ///< … an edit has moved any vertex
+    double most_popped_px_ = 0.0;     ///< the largest error of a diamond that did not
+    RecordBits has_popped_;           ///< in this frame, in view, without a glide
+    RecordBits has_come_unseen_;      ///< in this frame, where no eye looked in the last
     std::vector<DiamondIndex> back_;
     struct MovedVertex {
         DiamondIndex index = kOutside;

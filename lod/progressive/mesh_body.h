@@ -99,7 +99,7 @@ class MeshBody {
     bool is_cut_ = true;  ///< this frame has nothing in common with the last: nothing glides
     uint64_t leaving_triangles_ = 0;
     uint64_t wanted_triangles_ = 0;  ///< by the size policy
-    double set_out_px_ = 0.0;        ///< worst node whose children set out in this frame: it is what is drawn
+    double set_out_px_ = 0.0;        ///< error of what was split in this frame and is still drawn
     double glide_px_ = 0.0, jump_px_ = 0.0;
     FourWays waiting_pops_;  ///< not in jump_px_ yet
     int waiting_count_ = 0;

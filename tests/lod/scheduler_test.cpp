@@ -10,13 +10,26 @@
 
 namespace {
 
+/// Never drawn: nothing but what the scheduler asks.
+class Undrawn : public lod::Front {
+  public:
+    void begin_frame(std::span<const lod::View>, double) override {}
+    double error_px() override { return refine_error_px(); }
+    lod::OperationCounts operations() const override { return {}; }
+    uint64_t hash() const override { return 0; }
+    lod::PoolRegion pool_need() const override { return {}; }
+    void place(const lod::PoolRegion&) override {}
+    void emit(const lod::View&, lod::DrawList&) override {}
+    uint64_t emitted_triangles() const override { return 0; }
+    std::string validate() const override { return ""; }
+};
+
 /// Each place has an error of base / 2^level; a level costs two triangles.
-class Halving final : public lod::Front {
+class Halving final : public Undrawn {
   public:
     explicit Halving(std::vector<double> base, double coarsen_ratio = 0.6)
         : base_(std::move(base)), level_(base_.size(), 0), coarsen_ratio_(coarsen_ratio) {}
 
-    void begin_frame(std::span<const lod::View>, double) override {}
     double refine_error_px() override { return error_at(worst()); }
     double coarsen_error_px() override {
         const size_t i = cheapest();
@@ -38,14 +51,6 @@ class Halving final : public lod::Front {
             sum += 2 * static_cast<uint64_t>(level);
         return sum;
     }
-    double error_px() override { return error_at(worst()); }
-    lod::OperationCounts operations() const override { return {}; }
-    uint64_t hash() const override { return 0; }
-    lod::PoolRegion pool_need() const override { return {}; }
-    void place(const lod::PoolRegion&) override {}
-    void emit(const lod::View&, lod::DrawList&) override {}
-    uint64_t emitted_triangles() const override { return 0; }
-    std::string validate() const override { return ""; }
 
     std::vector<double> base_;
     std::vector<int> level_;
@@ -69,7 +74,7 @@ class Halving final : public lod::Front {
 };
 
 /// A hundred cheap things that go one a frame, as one must have glided away before the next can; ten dear ones, at any time.
-class Gliding final : public lod::Front {
+class Gliding final : public Undrawn {
   public:
     static constexpr double kCheap_px = 2.0, kDear_px = 500.0;
 
@@ -95,14 +100,6 @@ class Gliding final : public lod::Front {
     }
     uint64_t triangles() const override { return 2 * (cheap_ + dear_); }
     uint64_t leaving_triangles() const override { return is_leaving_ ? 2 : 0; }
-    double error_px() override { return refine_error_px(); }
-    lod::OperationCounts operations() const override { return {}; }
-    uint64_t hash() const override { return 0; }
-    lod::PoolRegion pool_need() const override { return {}; }
-    void place(const lod::PoolRegion&) override {}
-    void emit(const lod::View&, lod::DrawList&) override {}
-    uint64_t emitted_triangles() const override { return 0; }
-    std::string validate() const override { return ""; }
 
     uint64_t cheap_ = 100, dear_ = 10;
 
