@@ -9,6 +9,10 @@ namespace {
 
 constexpr double kOutlier = 3.0;
 constexpr double kGain = 0.15;
+// A limit that differs by less is followed by a share a frame, as every change sets vertices gliding; not when all of
+// the last few frames took so much longer than predicted.
+constexpr double kNear = 0.25, kNearGain = 0.06, kOver = 1.1;
+constexpr uint64_t kFew = 3;
 constexpr double kGrowth = 1.2;      // no frame may have more than this times the triangles of the one before
 constexpr double kSlowShare = 0.95;  // so many frames are faster than what noise is measured by
 constexpr uint64_t kFewest = 32;     // frames that say something about noise
@@ -58,13 +62,28 @@ void believe(BudgetController& controller, double ratio) {
     controller.ratios.fill(1.0);
 }
 
+bool are_last_over(const BudgetController& controller) {
+    for (uint64_t back = 1; back <= kFew; ++back) {
+        if (controller.ratios[(controller.seen - back) % controller.ratios.size()] <= kOver) return false;
+    }
+    return true;
+}
+
+/// The next limit, on the way to the one that is wanted.
+double approach(const BudgetController& controller, double wanted) {
+    const auto present = static_cast<double>(controller.triangles);
+    const bool is_near = std::abs(wanted - present) < kNear * present;
+    if (is_near && !are_last_over(controller)) return present + kNearGain * (wanted - present);
+    return std::min(wanted, kGrowth * present);
+}
+
 }  // namespace
 
 void observe(BudgetController& controller, uint64_t drawn_triangles, double measured_ms) {
     const double predicted_ms =
         controller.fixed_ms + controller.per_triangle_ms * static_cast<double>(drawn_triangles);
     const double ratio = std::max(measured_ms, 1e-3) / predicted_ms;
-    const bool is_calibrated = controller.seen >= 3;
+    const bool is_calibrated = controller.seen >= kFew;
     const bool is_outlier = is_calibrated && ratio > kOutlier * usual(controller);
     const bool is_stall = is_outlier && !controller.was_outlier;
     controller.was_outlier = is_stall;
@@ -78,8 +97,8 @@ void observe(BudgetController& controller, uint64_t drawn_triangles, double meas
     const BudgetTarget& target = controller.target;
     const double wanted_ms = target.frame_ms * std::min(1.0, target.noise_room / noise(controller));
     const double wanted = std::max(wanted_ms - controller.fixed_ms, 0.0) / controller.per_triangle_ms;
-    const double limit = std::min(wanted, kGrowth * static_cast<double>(controller.triangles));
-    controller.triangles = static_cast<uint64_t>(std::clamp(limit, static_cast<double>(target.min_triangles),
+    controller.triangles = static_cast<uint64_t>(std::clamp(approach(controller, wanted),
+                                                            static_cast<double>(target.min_triangles),
                                                             static_cast<double>(target.max_triangles)));
 }
 

@@ -5,9 +5,9 @@
 //
 // Every frame says how much longer than predicted it took. The middle one of the last few moves both figures: no single
 // frame does, however slow. How far frames lie beyond that middle, over some seconds, is the machine's noise: no budget
-// can follow it, so it is left room for. A frame beyond three times what is usual is a stall and teaches nothing; a
-// second in a row is a new load and is believed at once. No clock and no hidden state: the plant in the tests is a
-// formula.
+// can follow it, so it is left room for, and the limit follows small changes slowly unless frame after frame is over. A
+// frame beyond three times what is usual is a stall and teaches nothing; a second in a row is a new load and is believed
+// at once. No clock and no hidden state: the plant in the tests is a formula.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -22,9 +23,18 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// One line about a long step of the work, when stderr is a terminal; a log gets notes and errors only.
+/// One line about a long step of the work. A terminal gets every one, a log no more than one in half a minute, so that
+/// short work says nothing there.
 inline void say_progress(const std::string& line) {
-    if (isatty(STDERR_FILENO)) std::fprintf(stderr, "harrier: %s\n", line.c_str());
+    constexpr int kPause_s = 30;
+    static const Stopwatch watch;
+    static std::atomic<int> next_s = kPause_s;
+    if (!isatty(STDERR_FILENO)) {
+        const int now_s = static_cast<int>(watch.seconds());
+        if (now_s < next_s) return;
+        next_s = now_s + kPause_s;
+    }
+    std::fprintf(stderr, "harrier: %s\n", line.c_str());
 }
 
 /// One line about a liberty that was taken with the input.

@@ -81,6 +81,19 @@ TEST(BudgetController, FivefoldLoadIsOverForThreeFramesAtMost) {
     EXPECT_NEAR(step(controller, plant), controller.target.frame_ms, 0.05 * controller.target.frame_ms);
 }
 
+/// However calm the limit is otherwise: the three frames it takes to be sure, and a few more for the way.
+TEST(BudgetController, ThirdMoreLoadIsOverForEightFramesAtMost) {
+    Plant plant;
+    sim::BudgetController controller = make_controller();
+    controller.target.frame_ms = 0.85 * kPeriod_ms;
+    settle(controller, plant);
+    plant.load = 1.33;
+    int over = 0;
+    for (int i = 0; i < 120; ++i)
+        over += step(controller, plant) > kPeriod_ms;
+    EXPECT_LE(over, 8);
+}
+
 TEST(BudgetController, OneLongStallCostsNoDetail) {
     Plant plant;
     sim::BudgetController controller = make_controller();
@@ -152,7 +165,7 @@ TEST(BudgetController, RoomIsLeftForTheNoiseThereIs) {
     EXPECT_LE(some.late, 0.55 * none.late);
     EXPECT_GE(some.mean, 0.7 * none.mean);
     EXPECT_GE(some.small, 0.4 * some.mean);
-    EXPECT_LE(some.steps, 0.01 * some.mean);
+    EXPECT_LE(some.steps, 0.006 * some.mean);
 }
 
 TEST(BudgetController, LighterLoadGivesDetailBackWithinTwoSeconds) {
