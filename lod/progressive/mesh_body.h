@@ -3,6 +3,7 @@
 //     MeshCut     which nodes are active            (mesh_cut.h, topology)
 //     NodeRanks   worst node, cheapest collapse     (node_ranks.h)
 //     NodeGlides  vertices under way                (node_glides.h)
+//     GlideError  what they are off                 (glide_error.h)
 //
 // A body that no view can see sleeps: nothing is evaluated, split or collapsed, and its triangles are not counted. When
 // it is seen again it goes on with the cut it had.
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "lod/front.h"
+#include "lod/progressive/glide_error.h"
 #include "lod/progressive/mesh_cut.h"
 #include "lod/progressive/node_glides.h"
 #include "lod/progressive/node_ranks.h"
@@ -90,6 +92,7 @@ class MeshBody {
     MeshCut cut_;
     NodeRanks ranks_;
     NodeGlides glides_;
+    GlideError glide_error_;
     std::vector<NodeId> strayed_, chain_;
     std::vector<uint32_t> back_;
     uint32_t ready_ = kNoRecord;    ///< its collapse is known to be legal in this cut

@@ -105,18 +105,16 @@ void MeshBody::advance_glides() {
 }
 
 void MeshBody::measure_glides() {
-    glide_px_ = 0.0;
+    glide_px_ = glide_error_.measure_px(cut_, glides_, ranks_.eyes());
     forget_pops();
     const std::span<const NodeGlide> glides = glides_.all();
     for (size_t begin = 0; begin < glides.size(); begin += 4) {
-        FourWays gaps, steps;
+        FourWays steps;
         for (size_t i = begin; i < std::min(begin + 4, glides.size()); ++i) {
             const glm::vec3 place = mesh().hierarchy.position[glides[i].node];
-            gaps.set(static_cast<int>(i - begin), place, glm::length(glides[i].shown_m));
             steps.set(static_cast<int>(i - begin), place,
                       glm::length(glides[i].shown_m - glides[i].before_m));
         }
-        glide_px_ = std::max(glide_px_, gaps.worst_px(ranks_.eyes()));
         jump_px_ = std::max(jump_px_, steps.worst_px(ranks_.eyes()));
     }
 }

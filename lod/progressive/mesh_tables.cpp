@@ -55,6 +55,21 @@ void replay(ProgressiveMesh& mesh) {
     }
 }
 
+void index_leaf_corners(ProgressiveMesh& mesh) {
+    const VertexHierarchy& h = mesh.hierarchy;
+    mesh.leaf_begin.assign(h.leaf_count + 1, 0);
+    for (const auto& triangle : h.triangles) {
+        for (NodeId leaf : triangle)
+            ++mesh.leaf_begin[leaf + 1];
+    }
+    for (size_t leaf = 0; leaf < h.leaf_count; ++leaf)
+        mesh.leaf_begin[leaf + 1] += mesh.leaf_begin[leaf];
+    mesh.leaf_corners.resize(3 * h.triangles.size());
+    std::vector<uint32_t> next(mesh.leaf_begin.begin(), mesh.leaf_begin.end() - 1);
+    for (CornerId corner = 0; corner < mesh.leaf_corners.size(); ++corner)
+        mesh.leaf_corners[next[h.triangles[corner / 3][corner % 3]]++] = corner;
+}
+
 void index_further_vertices(ProgressiveMesh& mesh) {
     const VertexHierarchy& h = mesh.hierarchy;
     mesh.further_begin.assign(h.node_count() + 1, 0);
@@ -115,6 +130,7 @@ ProgressiveMesh make_progressive_mesh(VertexHierarchy hierarchy, bool is_glass) 
     CHECK(h.kept_vertex.size() == h.kept.size() && h.vertex_count() >= h.node_count());
     for (const auto& triangle : h.triangles)
         CHECK(std::max({triangle[0], triangle[1], triangle[2]}) < h.leaf_count);
+    index_leaf_corners(mesh);
     index_further_vertices(mesh);
     gather_lists(mesh);
     replay(mesh);

@@ -47,6 +47,8 @@ struct ProgressiveMesh {
     std::vector<NodeBound> bounds;           ///< [collapses]
     std::vector<CollapseHead> heads;         ///< [collapses]
     std::vector<uint32_t> lists;             ///< of each collapse, side by side: kept, removed, kept_vertices
+    std::vector<uint32_t> leaf_begin;        ///< [leaves + 1] into leaf_corners
+    std::vector<CornerId> leaf_corners;      ///< of the full mesh, by their leaf
     std::vector<NodeId> roots;               ///< nodes without parent, rising
     glm::dvec3 centre{0.0};                  ///< sphere around every node's position
     double radius_m = 0.0;
@@ -79,6 +81,10 @@ struct ProgressiveMesh {
     std::span<const CornerId> star(NodeId node) const {
         const CollapseHead& head = heads[collapse_of(node)];
         return {lists.data() + head.begin, head.kept_count[0] + head.kept_count[1]};
+    }
+    /// The corners a leaf has in the full mesh.
+    std::span<const CornerId> full_star(NodeId leaf) const {
+        return {leaf_corners.data() + leaf_begin[leaf], leaf_begin[leaf + 1] - leaf_begin[leaf]};
     }
 };
 
