@@ -42,4 +42,16 @@ inline std::array<BintreeTriangle, 2> children_of(const DiamondMesh& mesh, const
     return {child(t.half == 0 ? 0 : 2, t.apex, t.left), child(t.half == 0 ? 3 : 1, t.right, t.apex)};
 }
 
+/// The triangle that the split of its apex's diamond divided; its diamond and half are the apex's.
+inline BintreeTriangle parent_of(const DiamondMesh& mesh, const BintreeTriangle& t) {
+    const Diamond& split = mesh[t.apex];
+    const auto [from, to] = mesh.edge_ends(t.apex);
+    const bool is_left_half =
+        split.parent0 == t.left || split.parent1 == t.left;  // as children_of() turns them
+    const DiamondIndex apex = is_left_half ? t.left : t.right, end = is_left_half ? t.right : t.left;
+    const DiamondIndex other = end == from ? to : from;
+    const int half = split.parent0 == apex ? 0 : 1;
+    return {t.apex, half, apex, is_left_half ? end : other, is_left_half ? other : end};
+}
+
 }  // namespace terrain

@@ -34,6 +34,18 @@ inline bool is_in_view(const lod::AnchoredEye& eye, const std::array<glm::vec3, 
     return !(is_right || is_left || is_above || is_below || is_behind);
 }
 
+/// Pixels that a sphere's error is worth; 0 out of view. The bound of lod/screen_error.h.
+inline double sphere_error_px(std::span<const lod::AnchoredEye> eyes, const lod::ErrorSphere& sphere) {
+    const double radius = static_cast<double>(sphere.radius_m);
+    double worst = 0.0;
+    for (const lod::AnchoredEye& eye : eyes) {
+        if (!is_in_view(eye, sphere.centre, radius)) continue;
+        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(sphere.centre) - eye.eye);
+        worst = std::max(worst, lod::screen_error_px(eye.metric, centre, radius, double(sphere.error_m)));
+    }
+    return worst;
+}
+
 /// Pixels a displacement of a diamond's vertex costs anywhere in its two triangles, whose surface goes with it, and
 /// which may be in view where the vertex is not; 0 out of view. The bound of lod/screen_error.h.
 /// @param around  where the diamond is shown: its place, and a radius that holds its corners where they are
@@ -41,14 +53,7 @@ inline double displacement_px(std::span<const lod::AnchoredEye> eyes, const Diam
                               const glm::vec3& way) {
     const double length = static_cast<double>(glm::length(way));
     if (length == 0.0) return 0.0;
-    const double radius = static_cast<double>(around.radius_m) + length;
-    double worst = 0.0;
-    for (const lod::AnchoredEye& eye : eyes) {
-        if (!is_in_view(eye, around.centre, radius)) continue;
-        const glm::dvec3 centre = eye.metric.eye_from_world * (glm::dvec3(around.centre) - eye.eye);
-        worst = std::max(worst, lod::screen_error_px(eye.metric, centre, radius, length));
-    }
-    return worst;
+    return sphere_error_px(eyes, {around.centre, around.radius_m + glm::length(way), glm::length(way)});
 }
 
 }  // namespace terrain

@@ -101,6 +101,7 @@ void RoamFront::begin_frame(std::span<const lod::View> views, double time_s) {
                   [&](DiamondIndex index) { return index >= mesh_.record_count() || !is_queued(index); });
     for (size_t i = 0; i < due_.size(); i += 4)
         refresh(std::span(due_).subspan(i, std::min<size_t>(4, due_.size() - i)));
+    measure_glides();
 }
 
 /// Pages have come: what waited is asked again.
@@ -142,14 +143,22 @@ double RoamFront::coarsen_error_px() {
     return std::numeric_limits<double>::infinity();
 }
 
-/// What is under way is as wrong as its place is far, beyond what the mesh around it is.
+/// Of the mesh with every vertex at its place.
+double RoamFront::mesh_error_px() const {
+    double worst_px = 0.0;
+    for (const Queue queue : {Queue::kSplit, Queue::kWait}) {
+        const BucketQueue& candidates = queues_[static_cast<size_t>(queue) - 1];
+        if (!candidates.is_empty())
+            worst_px = std::max(worst_px, double(scale_.upper_px(candidates.highest())));
+    }
+    return worst_px;
+}
+
+/// Where vertices are under way, what the frame has added to the mesh's error counts in full, at most.
 double RoamFront::error_px() {
     ask_all();
-    double settled = 0.0;
-    for (BucketQueue* queue : {&splits(), &waits()}) {
-        if (!queue->is_empty()) settled = std::max(settled, double(scale_.upper_px(queue->highest())));
-    }
-    return std::max(settled, set_out_px_) + glide_px_;
+    const double mesh_px = mesh_error_px();
+    return std::max({mesh_px, set_out_px_, glide_px_ + std::max(mesh_px - unglided_px_, 0.0)});
 }
 
 /// Splits one candidate whose parents are split.

@@ -171,7 +171,12 @@ class RoamFront final : public lod::Front {
     }
     DiamondBound shown_bound(DiamondIndex index) const;
     double shift_px(DiamondIndex index, const glm::vec3& way_m) const;
-    void measure_glide(const VertexGlide& glide);
+    double shift_px(DiamondIndex index, const BintreeTriangle& triangle, const glm::vec3& way_m) const;
+    void measure_steps();
+    void measure_glides();
+    bool glides_alone(const VertexGlide& glide) const;
+    void measure_around(DiamondIndex index);
+    double mesh_error_px() const;
     bool was_seen(DiamondIndex candidate) const;
     void let_come(DiamondIndex index, bool is_watched);
     void note_pop(DiamondIndex index);
@@ -190,7 +195,6 @@ class RoamFront final : public lod::Front {
     bool leave(DiamondIndex index);
     void stay(DiamondIndex index);
     void advance_glides(bool is_cut);
-    void measure_glides();
 
     void list_touched(const data::SampleRange& range, std::vector<DiamondIndex>& out);
     void take_facts(DiamondIndex index, const DiamondSource& now, FrontEditCounts& counts);
@@ -222,13 +226,14 @@ class RoamFront final : public lod::Front {
         0;  ///< of the mesh, by splits that draw nothing new: patches end with the grid
     uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
     double set_out_px_ = 0.0;         ///< error of what was split in this frame and is still drawn
-    double glide_px_ = 0.0;           ///< farthest any vertex is shown from its place
-    double glided_px_ = 0.0;          ///< farthest any vertex has moved since the last frame
-    double popped_px_ = 0.0;          ///< … the surface has jumped where vertices did not glide
-    double edited_px_ = 0.0;          ///< … an edit has moved any vertex
-    double most_popped_px_ = 0.0;     ///< the largest error of a diamond that did not
-    RecordBits has_popped_;           ///< in this frame, in view, without a glide
-    RecordBits has_come_unseen_;      ///< in this frame, where no eye looked in the last
+    double unglided_px_ = 0.0;     ///< error of the mesh with every vertex at its place, as the frame began
+    double glide_px_ = 0.0;        ///< … with vertices where they are shown
+    double glided_px_ = 0.0;       ///< farthest any vertex has moved since the last frame
+    double popped_px_ = 0.0;       ///< … the surface has jumped where vertices did not glide
+    double edited_px_ = 0.0;       ///< … an edit has moved any vertex
+    double most_popped_px_ = 0.0;  ///< the largest error of a diamond that did not
+    RecordBits has_popped_;        ///< in this frame, in view, without a glide
+    RecordBits has_come_unseen_;   ///< in this frame, where no eye looked in the last
     std::vector<DiamondIndex> back_;
     struct MovedVertex {
         DiamondIndex index = kOutside;

@@ -45,7 +45,7 @@ FrontEditCounts RoamFront::edit(const GroundEdit& edit) {
     counts.evaluations = due_.size();
     if (!glides_.is_empty()) {
         glides_.rebase(now_s_, [&](DiamondIndex index) { return bound(index).centre; });
-        glide_px_ = 0.0;
+        measure_steps();
         measure_glides();
     }
     return counts;

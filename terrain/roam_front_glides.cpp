@@ -1,9 +1,11 @@
 // Gliding: new vertices glide in, superfluous ones glide out before they are merged, and what still jumps is told.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "terrain/corner_shift.h"
 #include "terrain/displacement.h"
+#include "terrain/gliding_triangle.h"
 #include "terrain/roam_front.h"
 #include "terrain/vertex_star.h"
 
@@ -90,17 +92,22 @@ DiamondBound RoamFront::shown_bound(DiamondIndex index) const {
 /// Pixels that a movement of a split diamond's vertex costs, on the triangles of the mesh at that vertex as they are
 /// shown.
 double RoamFront::shift_px(DiamondIndex index, const glm::vec3& way_m) const {
-    const glm::vec3 vertex_m = shown_m(index);
     double worst_px = 0.0;
     visit_star(mesh_, index, [&](const BintreeTriangle& triangle) {
-        std::array<glm::vec3, 3> corners{vertex_m};
-        size_t count = 1;
-        for (const DiamondIndex corner : {triangle.apex, triangle.left, triangle.right}) {
-            if (corner != index) corners[count++] = shown_m(corner);
-        }
-        worst_px = std::max(worst_px, corner_shift_px(odometer_.eyes(), corners, way_m));
+        worst_px = std::max(worst_px, shift_px(index, triangle, way_m));
     });
     return worst_px;
+}
+
+/// … on one triangle.
+double RoamFront::shift_px(DiamondIndex index, const BintreeTriangle& triangle,
+                           const glm::vec3& way_m) const {
+    std::array<glm::vec3, 3> corners{shown_m(index)};
+    size_t count = 1;
+    for (const DiamondIndex corner : {triangle.apex, triangle.left, triangle.right}) {
+        if (corner != index) corners[count++] = shown_m(corner);
+    }
+    return corner_shift_px(odometer_.eyes(), corners, way_m);
 }
 
 /// Triangles of the mesh that hang on a diamond's split.
@@ -134,7 +141,7 @@ void RoamFront::stay(DiamondIndex index) {
 void RoamFront::advance_glides(bool is_cut) {
     is_cut_ = is_cut;
     forget_pops();
-    glided_px_ = glide_px_ = set_out_px_ = 0.0;
+    glided_px_ = glide_px_ = unglided_px_ = set_out_px_ = 0.0;
     if (is_cut) {
         edited_px_ = 0.0;
         for (int level = 0; level <= table_.domain.finest_level(); ++level) {
@@ -153,7 +160,7 @@ void RoamFront::advance_glides(bool is_cut) {
         return;
     }
     glides_.advance(now_s_, back_);
-    measure_glides();
+    measure_steps();
     for (DiamondIndex index : back_) {
         note_flip(*glides_.find(index, mesh_[index].level));
         leaving_triangles_ -= triangles_of(index);
@@ -162,24 +169,65 @@ void RoamFront::advance_glides(bool is_cut) {
     }
 }
 
-void RoamFront::measure_glides() {
+/// By how far vertices have moved since the last frame. A bound over a diamond's sphere is known at once; the triangles
+/// at the vertex are asked where that might matter.
+void RoamFront::measure_steps() {
     for (int level = 0; level <= table_.domain.finest_level(); ++level) {
         for (const VertexGlide& glide : glides_.at_level(level)) {
             tessellator_.add_vertex(glide.index);
-            measure_glide(glide);
+            const glm::vec3 step_m = glide.shown_m - glide.before_m;
+            const double step_px = displacement_px(odometer_.eyes(), shown_bound(glide.index), step_m);
+            if (step_px > glided_px_) glided_px_ = std::max(glided_px_, shift_px(glide.index, step_m));
         }
     }
 }
 
-/// What a glide costs where it is shown and by how far it has moved. A bound over its diamond's sphere is known at
-/// once; the triangles at the vertex are asked where that might matter.
-void RoamFront::measure_glide(const VertexGlide& glide) {
-    const glm::vec3 step_m = glide.shown_m - glide.before_m;
-    const DiamondBound around = shown_bound(glide.index);
-    if (displacement_px(odometer_.eyes(), around, glide.shown_m) > glide_px_)
-        glide_px_ = std::max(glide_px_, shift_px(glide.index, glide.shown_m));
-    if (displacement_px(odometer_.eyes(), around, step_m) > glided_px_)
-        glided_px_ = std::max(glided_px_, shift_px(glide.index, step_m));
+/// How far the surface is off where vertices are under way.
+void RoamFront::measure_glides() {
+    glide_px_ = 0.0;
+    unglided_px_ = mesh_error_px();
+    for (int level = 0; level <= table_.domain.finest_level(); ++level) {
+        for (VertexGlide& glide : glides_.at_level(level)) {
+            const DiamondBound around = shown_bound(glide.index);
+            glide.error_px = float(sphere_error_px(odometer_.eyes(), around));
+            glide.way_px = float(displacement_px(odometer_.eyes(), around, glide.shown_m));
+            if (!glides_alone(glide)) continue;
+            const double weight = double(glide.weight);
+            glide_px_ = std::max(glide_px_, (1.0 - weight) * unglided_px_ + weight * double(glide.error_px));
+        }
+    }
+    for (int level = 0; level <= table_.domain.finest_level(); ++level) {
+        for (const VertexGlide& glide : std::as_const(glides_).at_level(level)) {
+            // None of its triangles has a corner with a longer way, or it is met there.
+            if (!glides_alone(glide) && unglided_px_ + 3.0 * double(glide.way_px) > glide_px_)
+                measure_around(glide.index);
+        }
+    }
+}
+
+/// Whether its diamond's corners are at their places, and so is all that was split after it: then it is never farther off
+/// than with it and without.
+bool RoamFront::glides_alone(const VertexGlide& glide) const {
+    if (!glide.base.is_middle() || mesh_[glide.index].split_kids > 0) return false;
+    const auto [apex, opposite] = mesh_[glide.index].parents();
+    for (const DiamondIndex corner : {glide.base.ends[0], glide.base.ends[1], apex, opposite}) {
+        if (is_record(corner) && glides_.find(corner, mesh_[corner].level) != nullptr) return false;
+    }
+    return true;
+}
+
+/// The triangles at a vertex: by spheres first, exactly where that might matter.
+void RoamFront::measure_around(DiamondIndex index) {
+    const auto by_sphere = [](const VertexGlide& glide, const BintreeTriangle&) {
+        return double(glide.way_px);
+    };
+    const auto by_corners = [this](const VertexGlide& glide, const BintreeTriangle& t) {
+        return shift_px(glide.index, t, glide.shown_m);
+    };
+    visit_star(mesh_, index, [&](const BintreeTriangle& t) {
+        if (gliding_error_px(mesh_, glides_, t, unglided_px_, by_sphere) <= glide_px_) return;
+        glide_px_ = std::max(glide_px_, gliding_error_px(mesh_, glides_, t, unglided_px_, by_corners));
+    });
 }
 
 }  // namespace terrain

@@ -56,7 +56,8 @@ const VertexGlide& VertexGlides::start(const VertexGlide& glide, int level, bool
     fresh.from = leaves ? 0.0f : 1.0f;
     fresh.to = 1.0f - fresh.from;
     fresh.start_s = now_s;
-    fresh.shown_m = fresh.before_m = fresh.from * shown_base_m(glide);
+    fresh.weight = fresh.from;
+    fresh.shown_m = fresh.before_m = fresh.weight * shown_base_m(glide);
     farthest_m_ = std::max(farthest_m_, glm::length(fresh.shown_m));
     ++count_;
     return *glides.insert(at, fresh);
@@ -88,11 +89,11 @@ void VertexGlides::advance(double now_s, std::vector<DiamondIndex>& back) {
     farthest_m_ = 0.0f;
     for (std::vector<VertexGlide>& glides : levels_) {
         for (VertexGlide& glide : glides) {
-            const float w = weight(glide, now_s);
+            glide.weight = weight(glide, now_s);
             glide.before_m = glide.shown_m;
-            glide.shown_m = w * shown_base_m(glide);
+            glide.shown_m = glide.weight * shown_base_m(glide);
             farthest_m_ = std::max(farthest_m_, glm::length(glide.shown_m));
-            if (glide.to == 1.0f && w == 1.0f) back.push_back(glide.index);
+            if (glide.to == 1.0f && glide.weight == 1.0f) back.push_back(glide.index);
         }
     }
     // Arrived, and shown there once: dropped with the next frame, so that its last step is drawn, too.

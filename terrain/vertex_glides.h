@@ -26,6 +26,8 @@ struct GlideBase {
     std::array<DiamondIndex, 3> ends{};
     std::array<uint8_t, 3> levels{};  ///< of the ends
     std::array<float, 3> shares{};    ///< of the ends, summing to 1
+
+    bool is_middle() const { return shares[2] == 0.0f; }
 };
 
 /// One vertex under way.
@@ -34,9 +36,12 @@ struct VertexGlide {
     GlideBase base;
     float from = 0.0f, to = 0.0f;  ///< w at the start and at the end
     double start_s = 0.0;
+    float weight = 0.0f;                ///< w now
     glm::vec3 base_from_place_m{0.0f};  ///< the base where its ends' own places are, seen from the vertex's
     glm::vec3 shown_m{0.0f};            ///< displacement now
     glm::vec3 before_m{0.0f};           ///< … and in the frame before
+    float error_px = 0.0f;  ///< of its diamond when not split, as the front measured it in this frame
+    float way_px = 0.0f;    ///< that shown_m costs, likewise
 };
 
 class VertexGlides {
@@ -49,6 +54,7 @@ class VertexGlides {
     float farthest_m() const { return farthest_m_; }
     size_t count() const { return count_; }
     std::span<const VertexGlide> at_level(int level) const { return levels_[static_cast<size_t>(level)]; }
+    std::span<VertexGlide> at_level(int level) { return levels_[static_cast<size_t>(level)]; }
 
     /// A vertex that has just been born on its edge, or (`leaves`) begins to go back to it. One that is under way
     /// turns round where it is. Returns it, until the next call.
@@ -77,7 +83,8 @@ class VertexGlides {
                     if (glide.base.shares[end] > 0.0f)
                         glide.base_from_place_m += glide.base.shares[end] * place_m(glide.base.ends[end]);
                 }
-                glide.shown_m = glide.before_m = weight(glide, now_s) * shown_base_m(glide);
+                glide.weight = weight(glide, now_s);
+                glide.shown_m = glide.before_m = glide.weight * shown_base_m(glide);
                 farthest_m_ = std::max(farthest_m_, glm::length(glide.shown_m));
             }
         }
