@@ -23,7 +23,7 @@ namespace terrain {
 /// @param t         in the mesh
 /// @param error_px  of the mesh as it is without gliding, at least of the triangle
 /// @param way_px    (glide, triangle): pixels that the glide's displacement costs on a triangle that has it as a corner
-/// @return pixels, at most; no less than the triangle's own error only if nothing glides there
+/// @return pixels that the triangle is off as it is shown, at most
 /// Cost: some 100 ns, and as much again for each generation that glides at once.
 template <typename WayPx>
 double gliding_error_px(const DiamondMesh& mesh, const VertexGlides& glides, BintreeTriangle t,

@@ -227,7 +227,7 @@ class RoamFront final : public lod::Front {
     uint64_t leaving_triangles_ = 0;  ///< that go when what leaves has left
     double set_out_px_ = 0.0;         ///< error of what was split in this frame and is still drawn
     double unglided_px_ = 0.0;     ///< error of the mesh with every vertex at its place, as the frame began
-    double glide_px_ = 0.0;        ///< … with vertices where they are shown
+    double glide_px_ = 0.0;        ///< … where vertices are under way, as shown; 0: none is
     double glided_px_ = 0.0;       ///< farthest any vertex has moved since the last frame
     double popped_px_ = 0.0;       ///< … the surface has jumped where vertices did not glide
     double edited_px_ = 0.0;       ///< … an edit has moved any vertex
