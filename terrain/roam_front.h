@@ -235,6 +235,7 @@ class RoamFront final : public lod::Front {
     RecordBits has_popped_;        ///< in this frame, in view, without a glide
     RecordBits has_come_unseen_;   ///< in this frame, where no eye looked in the last
     std::vector<DiamondIndex> back_;
+    std::vector<const VertexGlide*> together_;  ///< whose neighbours glide, too; of measure_glides() alone
     struct MovedVertex {
         DiamondIndex index = kOutside;
         glm::vec3 way_m{0.0f};

@@ -1,7 +1,6 @@
 // Gliding: new vertices glide in, superfluous ones glide out before they are merged, and what still jumps is told.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "terrain/corner_shift.h"
 #include "terrain/displacement.h"
@@ -182,26 +181,27 @@ void RoamFront::measure_steps() {
     }
 }
 
-/// How far the surface is off where vertices are under way.
+/// How far the surface is off where vertices are under way: at once for those that glide alone, then around the others.
 void RoamFront::measure_glides() {
     glide_px_ = 0.0;
     unglided_px_ = mesh_error_px();
+    together_.clear();
     for (int level = 0; level <= table_.domain.finest_level(); ++level) {
         for (VertexGlide& glide : glides_.at_level(level)) {
             const DiamondBound around = shown_bound(glide.index);
             glide.error_px = float(sphere_error_px(odometer_.eyes(), around));
             glide.way_px = float(displacement_px(odometer_.eyes(), around, glide.shown_m));
-            if (!glides_alone(glide)) continue;
+            if (!glides_alone(glide)) {
+                together_.push_back(&glide);
+                continue;
+            }
             const double weight = double(glide.weight);
             glide_px_ = std::max(glide_px_, (1.0 - weight) * unglided_px_ + weight * double(glide.error_px));
         }
     }
-    for (int level = 0; level <= table_.domain.finest_level(); ++level) {
-        for (const VertexGlide& glide : std::as_const(glides_).at_level(level)) {
-            // None of its triangles has a corner with a longer way, or it is met there.
-            if (!glides_alone(glide) && unglided_px_ + 3.0 * double(glide.way_px) > glide_px_)
-                measure_around(glide.index);
-        }
+    for (const VertexGlide* glide : together_) {
+        // None of its triangles has a corner with a longer way, or it is met there.
+        if (unglided_px_ + 3.0 * double(glide->way_px) > glide_px_) measure_around(glide->index);
     }
 }
 

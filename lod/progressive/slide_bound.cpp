@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lod/surface/triangle.h"
+
 namespace lod {
 namespace {
 
@@ -33,13 +35,6 @@ std::optional<Ends> ends_of(std::span<const OuterEdge> star) {
         if (behind == 0) ends.last = &edge;
     }
     return ends;
-}
-
-glm::dvec3 nearest_on_segment(const glm::dvec3& point, const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 way = to - from;
-    const double length_2 = glm::dot(way, way);
-    if (length_2 == 0.0) return from;
-    return from + way * std::clamp(glm::dot(point - from, way) / length_2, 0.0, 1.0);
 }
 
 /// Of the triangle between a vertex and an outer edge; its length is twice the area.
